@@ -9,6 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_RIGID_MOTION_H
 
 #include <CGAL/Aff_transformation_3.h>
+#include <CGAL/number_utils.h>
 
 #include <Eigen/Core>
 
