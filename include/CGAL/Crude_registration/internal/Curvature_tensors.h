@@ -1,0 +1,287 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_CURVATURE_TENSORS_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_CURVATURE_TENSORS_H
+
+#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Two unit vectors u, v with u x v = n for a unit vector n (Duff et al., "Building an orthonormal basis, revisited",
+// 2017): the frame in which a Curvature_tensor at a vertex of normal n is written.
+struct Tangent_frame
+{
+  Vector u, v;
+
+  explicit Tangent_frame(const Vector& n)
+  {
+    const double sign = std::copysign(1.0, n.z());
+    const double a = -1.0 / (sign + n.z());
+    const double b = n.x() * n.y() * a;
+    u = Vector(1.0 + sign * n.x() * n.x() * a, sign * b, -sign * n.x());
+    v = Vector(b, sign + n.y() * n.y() * a, -n.y());
+  }
+};
+
+// A second fundamental form in a tangent frame (u, v): a unit tangent vector x u + y v bends the surface by
+// uu x^2 + 2 uv x y + vv y^2, in 1/length, positive where the surface is convex seen from outside.
+struct Curvature_tensor
+{
+  double uu = 0, uv = 0, vv = 0;
+
+  double mean() const { return 0.5 * (uu + vv); }
+  double gaussian() const { return uu * vv - uv * uv; }
+  double deviation() const { return std::hypot(0.5 * (uu - vv), uv); }
+  double minimum() const { return mean() - deviation(); }
+  double maximum() const { return mean() + deviation(); }
+
+  // The direction of the maximal curvature as its components along u and v; that of the minimal one is (-y, x).
+  std::array<double, 2> direction_of_maximum() const
+  {
+    const double angle = 0.5 * std::atan2(2 * uv, uu - vv);
+    return {std::cos(angle), std::sin(angle)};
+  }
+
+  Curvature_tensor& operator+=(const Curvature_tensor& t)
+  {
+    uu += t.uu;
+    uv += t.uv;
+    vv += t.vv;
+    return *this;
+  }
+  friend Curvature_tensor operator*(double w, const Curvature_tensor& t)
+  {
+    Curvature_tensor r;
+    r.uu = w * t.uu;
+    r.uv = w * t.uv;
+    r.vv = w * t.vv;
+    return r;
+  }
+};
+
+// `t`, written in the frame of first vector `u` of the plane of normal n, rotated about n x m into the plane of normal
+// m and written in that plane's Tangent_frame (Rusinkiewicz 2004, section 3.2). False, and `result` untouched, where n
+// and m are so nearly opposite that the rotation has no meaning.
+inline bool rotate_tensor(const Curvature_tensor& t, const Vector& u, const Vector& n, const Vector& m,
+                          Curvature_tensor& result)
+{
+  const double denominator = 1 + n.dot(m);
+  if (!(denominator > 1e-3)) return false;
+  const Vector rotated = u - ((u.dot(m) / denominator) * (n + m));
+  const Tangent_frame frame(m);
+  const double c = rotated.dot(frame.u), s = rotated.dot(frame.v);
+  const double cc = c * c, cs = c * s, ss = s * s;
+  result.uu = cc * t.uu - 2 * cs * t.uv + ss * t.vv;
+  result.uv = cs * (t.uu - t.vv) + (cc - ss) * t.uv;
+  result.vv = ss * t.uu + 2 * cs * t.uv + cc * t.vv;
+  return true;
+}
+
+// One curvature tensor a vertex. `areas` are the parts of the faces that are nearest to each vertex (Voronoi areas, cut
+// off at obtuse angles): what the tensors are to be weighted with. 0 where no face of positive area is incident.
+struct Curvature_field
+{
+  std::vector<Vector> normals;
+  std::vector<Curvature_tensor> tensors;
+  std::vector<double> areas;
+};
+
+// The curvature tensors of a mesh whose vertices have the given unit normals.
+// S. Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes", 3DPVT 2004, section 3: on each
+// face the second fundamental form that explains the differences of the normals along the three edges best (least
+// squares, equation 6), rotated into the tangent plane of each corner and averaged there by corner areas. Linear time.
+// Faces without area and corners without a normal do not count. On a border the normals are one-sided and the tensors
+// unreliable.
+inline Curvature_field curvature_tensors(const Flat_mesh& mesh, std::vector<Vector> normals)
+{
+  Curvature_field field;
+  field.tensors.resize(mesh.points.size());
+  field.areas.assign(mesh.points.size(), 0.0);
+
+  for (const auto& f : mesh.faces) {
+    const std::array<std::size_t, 3> corner = {std::size_t(f[0]), std::size_t(f[1]), std::size_t(f[2])};
+    // Edge i is opposite to corner i.
+    const std::array<Vector, 3> edge = {mesh.points[corner[2]] - mesh.points[corner[1]],
+                                        mesh.points[corner[0]] - mesh.points[corner[2]],
+                                        mesh.points[corner[1]] - mesh.points[corner[0]]};
+    const Vector cross = edge[0].cross(edge[1]);
+    const double double_area = cross.norm();
+    const double length = edge[0].norm();
+    // Lengths beyond the square root of the range of double fail here, too.
+    if (!(double_area > 0) || !std::isfinite(double_area) || !(length > 0)) continue;
+    const Vector n = cross / double_area;
+    const Vector u = edge[0] / length;
+    const Vector v = n.cross(u);
+
+    // Least squares of  [u_i v_i 0; 0 u_i v_i] (e, f, g)^T = (dn_i . u, dn_i . v)^T  over the edges i. Its normal
+    // equations have the matrix [a b 0; b a+c b; 0 b c]. ac - b^2 is three times the square of the double area, as the
+    // edges sum to zero; written so nothing cancels.
+    double a = 0, b = 0, c = 0, r0 = 0, r1 = 0, r2 = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double eu = edge[i].dot(u), ev = edge[i].dot(v);
+      const Vector dn = normals[corner[(i + 2) % 3]] - normals[corner[(i + 1) % 3]];
+      const double du = dn.dot(u), dv = dn.dot(v);
+      a += eu * eu;
+      b += eu * ev;
+      c += ev * ev;
+      r0 += eu * du;
+      r1 += eu * dv + ev * du;
+      r2 += ev * dv;
+    }
+    const double minor = 3 * double_area * double_area;
+    const double determinant = (a + c) * minor;
+    if (!(determinant > 0)) continue;
+    const double inverse = 1 / determinant;
+    Curvature_tensor form;
+    form.uu = ((minor + c * c) * r0 - b * c * r1 + b * b * r2) * inverse;
+    form.uv = (a * c * r1 - b * (c * r0 + a * r2)) * inverse;
+    form.vv = ((minor + a * a) * r2 - a * b * r1 + b * b * r0) * inverse;
+
+    // The circumcentre's barycentric coordinates say which part of the face is nearest to which corner (Meyer et al.,
+    // "Discrete differential-geometry operators for triangulated 2-manifolds", 2003).
+    const double area = 0.5 * double_area;
+    const double l0 = edge[0].squaredNorm(), l1 = edge[1].squaredNorm(), l2 = edge[2].squaredNorm();
+    const double b0 = l0 * (l1 + l2 - l0), b1 = l1 * (l2 + l0 - l1), b2 = l2 * (l0 + l1 - l2);
+    std::array<double, 3> part;
+    if (b0 <= 0) {
+      part[1] = -0.25 * l2 * area / edge[0].dot(edge[2]);
+      part[2] = -0.25 * l1 * area / edge[0].dot(edge[1]);
+      part[0] = area - part[1] - part[2];
+    } else if (b1 <= 0) {
+      part[2] = -0.25 * l0 * area / edge[1].dot(edge[0]);
+      part[0] = -0.25 * l2 * area / edge[1].dot(edge[2]);
+      part[1] = area - part[2] - part[0];
+    } else if (b2 <= 0) {
+      part[0] = -0.25 * l1 * area / edge[2].dot(edge[1]);
+      part[1] = -0.25 * l0 * area / edge[2].dot(edge[0]);
+      part[2] = area - part[0] - part[1];
+    } else {
+      const double scale = 0.5 * area / (b0 + b1 + b2);
+      part = {scale * (b1 + b2), scale * (b2 + b0), scale * (b0 + b1)};
+    }
+
+    for (std::size_t i = 0; i < 3; ++i) {
+      Curvature_tensor rotated;
+      if (!rotate_tensor(form, u, n, normals[corner[i]], rotated)) continue;
+      field.tensors[corner[i]] += part[i] * rotated;
+      field.areas[corner[i]] += part[i];
+    }
+  }
+  for (std::size_t i = 0; i < field.tensors.size(); ++i)
+    if (field.areas[i] > 0) field.tensors[i] = (1 / field.areas[i]) * field.tensors[i];
+  field.normals = std::move(normals);
+  return field;
+}
+
+inline Curvature_field curvature_tensors(const Flat_mesh& mesh)
+{
+  return curvature_tensors(mesh, vertex_normals(mesh));
+}
+
+// Averages of the tensors of a field over the vertices around a vertex. At the resolution of a scan the curvature is
+// mostly noise; its average over a neighbourhood is what another scan of the surface shows, too.
+class Curvature_average
+{
+public:
+  // The arguments are kept by reference. `borders`: flags as of border_flags().
+  Curvature_average(const Flat_mesh& mesh, const Index_lists& neighbours, const Curvature_field& field,
+                    const std::vector<std::uint8_t>& borders)
+      : m_mesh(mesh), m_neighbours(neighbours), m_field(field), m_borders(borders), m_seen_from(mesh.points.size(), -1)
+  {}
+
+  struct Result
+  {
+    Curvature_tensor tensor; // in the Tangent_frame of the vertex's normal
+    double radius = 0;       // of the neighbourhood that was used, 0 for an isolated vertex
+  };
+
+  // The average over the vertices that are connected to `vertex` inside the ball of the given radius around it,
+  // weighted by area and by 1 - (distance / radius)^2. The neighbourhood ends at the nearest border vertex, where the
+  // tensors become one-sided, but not below half the radius: there it takes what lies inside the border, and the border
+  // itself only where there is nothing else. The cost is proportional to the number of vertices in the ball.
+  Result operator()(std::size_t vertex, double radius)
+  {
+    const Vector& centre = m_mesh.points[vertex];
+    m_found.clear();
+    m_found.push_back({std::int32_t(vertex), 0.0});
+    m_seen_from[vertex] = std::int32_t(vertex);
+    double border_distance2 = radius * radius;
+    for (std::size_t i = 0; i < m_found.size(); ++i) {
+      const auto [w, distance2] = m_found[i];
+      if (m_borders[std::size_t(w)]) border_distance2 = (std::min)(border_distance2, distance2);
+      for (const std::int32_t* x = m_neighbours.begin(std::size_t(w)); x != m_neighbours.end(std::size_t(w)); ++x) {
+        if (m_seen_from[std::size_t(*x)] == std::int32_t(vertex)) continue;
+        m_seen_from[std::size_t(*x)] = std::int32_t(vertex);
+        const double d2 = (m_mesh.points[std::size_t(*x)] - centre).squaredNorm();
+        if (d2 < radius * radius) m_found.push_back({*x, d2});
+      }
+    }
+    // A vertex is found once a call; without this a second call for it would find nothing.
+    for (const Found& found : m_found) m_seen_from[std::size_t(found.vertex)] = -1;
+
+    const double end2 = (std::max)(border_distance2, 0.25 * radius * radius);
+    Result result;
+    if (!sum(vertex, end2, false, result.tensor) && !sum(vertex, end2, true, result.tensor)) {
+      result.tensor = m_field.tensors[vertex];
+      return result;
+    }
+    result.radius = std::sqrt(end2);
+    return result;
+  }
+
+private:
+  struct Found
+  {
+    std::int32_t vertex;
+    double distance2;
+  };
+
+  bool sum(std::size_t vertex, double end2, bool with_borders, Curvature_tensor& average) const
+  {
+    const Vector& normal = m_field.normals[vertex];
+    Curvature_tensor total;
+    double weights = 0;
+    for (const Found& found : m_found) {
+      const auto w = std::size_t(found.vertex);
+      if (found.distance2 >= end2 || (m_borders[w] && !with_borders)) continue;
+      const double weight = m_field.areas[w] * (1 - found.distance2 / end2);
+      Curvature_tensor rotated;
+      if (!(weight > 0) ||
+          !rotate_tensor(m_field.tensors[w], Tangent_frame(m_field.normals[w]).u, m_field.normals[w], normal, rotated))
+        continue;
+      total += weight * rotated;
+      weights += weight;
+    }
+    if (!(weights > 0)) return false;
+    average = (1 / weights) * total;
+    return true;
+  }
+
+  const Flat_mesh& m_mesh;
+  const Index_lists& m_neighbours;
+  const Curvature_field& m_field;
+  const std::vector<std::uint8_t>& m_borders;
+  std::vector<std::int32_t> m_seen_from;
+  std::vector<Found> m_found;
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_CURVATURE_TENSORS_H
