@@ -49,10 +49,11 @@ struct Rigid_motion
 template <class Kernel>
 Aff_transformation_3<Kernel> to_aff_transformation(const Rigid_motion& m)
 {
-  const Matrix& r = m.rotation;
-  const Vector& t = m.translation;
-  return Aff_transformation_3<Kernel>(r(0, 0), r(0, 1), r(0, 2), t.x(), r(1, 0), r(1, 1), r(1, 2), t.y(), r(2, 0),
-                                      r(2, 1), r(2, 2), t.z());
+  using RT = typename Kernel::RT;
+  const auto r = [&m](int i, int j) { return RT(m.rotation(i, j)); };
+  const auto t = [&m](int i) { return RT(m.translation(i)); };
+  return Aff_transformation_3<Kernel>(r(0, 0), r(0, 1), r(0, 2), t(0), r(1, 0), r(1, 1), r(1, 2), t(1), r(2, 0),
+                                      r(2, 1), r(2, 2), t(2));
 }
 
 template <class Kernel>
