@@ -1,0 +1,61 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_COUNTER_RANDOM_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_COUNTER_RANDOM_H
+
+#include <bitset>
+#include <cmath>
+#include <cstdint>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Random numbers that are a function of a seed and a counter: the order in which they are asked for does not matter,
+// and the bits are the same with every compiler and standard library (std::normal_distribution and std::log promise
+// neither).
+class Counter_random
+{
+  std::uint64_t m_seed;
+
+  // The finaliser of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
+  static std::uint64_t mix(std::uint64_t z)
+  {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+
+public:
+  explicit Counter_random(std::uint64_t seed) : m_seed(mix(seed + 0x9e3779b97f4a7c15u)) {}
+
+  // Independent numbers for every sub-stream of the same seed.
+  Counter_random stream(std::uint64_t i) const { return Counter_random(bits(i)); }
+
+  std::uint64_t bits(std::uint64_t counter) const { return mix(m_seed + (counter + 1) * 0x9e3779b97f4a7c15u); }
+
+  // In [0, 1).
+  double uniform(std::uint64_t counter) const { return static_cast<double>(bits(counter) >> 11) * 0x1p-53; }
+
+  // Standard normal: the ones among 256 random bits, a binomial distribution of variance 64, made continuous by a
+  // uniform number of variance 1/12. Excess kurtosis -0.008; only additions and one square root, hence the same bits
+  // everywhere.
+  double normal(std::uint64_t counter) const
+  {
+    const Counter_random words(bits(counter));
+    std::size_t ones = 0;
+    for (std::uint64_t i = 0; i < 4; ++i) ones += std::bitset<64>(words.bits(i)).count();
+    return (static_cast<double>(ones) - 128.5 + words.uniform(4)) / std::sqrt(64. + 1. / 12.);
+  }
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_COUNTER_RANDOM_H
