@@ -9,6 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_RANGE_IMAGE_H
 
 #include <CGAL/Crude_registration/Sensor.h>
+#include <CGAL/Crude_registration/internal/Flat_range_image.h>
 
 #include <CGAL/number_utils.h>
 
@@ -125,14 +126,10 @@ public:
     }
   }
 
-  /// moves the samples and the sensor by `motion`, a rigid motion (not checked).
-  void transform(const typename Kernel::Aff_transformation_3& motion)
-  {
-    for (Point_3& p : m_points) p = p.transform(motion);
-    m_sensor = m_sensor.transformed(motion);
-  }
-
 private:
+  template <class K>
+  friend void transform(Range_image<K>& image, const typename K::Aff_transformation_3& motion);
+
   static void check(const Point_3& p)
   {
     if (!std::isfinite(CGAL::to_double(p.x())) || !std::isfinite(CGAL::to_double(p.y())) ||
@@ -146,6 +143,38 @@ private:
   std::vector<Index> m_grid;
   Sensor<Kernel> m_sensor;
 };
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief moves the samples of a range image and its sensor by `motion`, a rigid motion (not checked).
+*/
+template <class Kernel>
+void transform(Range_image<Kernel>& image, const typename Kernel::Aff_transformation_3& motion)
+{
+  for (auto& p : image.m_points) p = p.transform(motion);
+  image.m_sensor = image.m_sensor.transformed(motion);
+}
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief returns the sampling distance \f$ s \f$ of a range image, in the unit of its points.
+
+It is the larger of the two medians, along rows and along columns, of the distances between adjacent samples, measured
+in the image plane: perpendicular to the lines of sight of the image's sensor. The distances of a perspective sensor
+grow with the range; \f$ s \f$ is then the distance at the median range. Where the sensor is unknown, the distances are
+measured in space.
+
+\return \f$ s \f$; 0 if no two adjacent cells have samples apart from each other
+
+Complexity: linear in the number of cells.
+*/
+template <class Kernel>
+double sampling_distance(const Range_image<Kernel>& image)
+{
+  return internal::sampling(internal::Flat_range_image(image)).distance;
+}
 
 } // namespace Crude_registration
 } // namespace CGAL
