@@ -122,8 +122,9 @@ inline Curvature_field curvature_tensors(const Flat_mesh& mesh, std::vector<Vect
     const Vector cross = edge[0].cross(edge[1]);
     const double double_area = cross.norm();
     const double length = edge[0].norm();
-    // Lengths beyond the square root of the range of double fail here, too.
+    // Lengths beyond the square root of the range of double fail here, too. A normal is zero where faces cancel.
     if (!(double_area > 0) || !std::isfinite(double_area) || !(length > 0)) continue;
+    if (normals[corner[0]].isZero(0) || normals[corner[1]].isZero(0) || normals[corner[2]].isZero(0)) continue;
     const Vector n = cross / double_area;
     const Vector u = edge[0] / length;
     const Vector v = n.cross(u);
@@ -279,6 +280,17 @@ private:
   std::vector<std::int32_t> m_seen_from;
   std::vector<Found> m_found;
 };
+
+// The averages at all vertices.
+inline std::vector<Curvature_tensor> average_tensors(const Flat_mesh& mesh, const Curvature_field& field, double radius)
+{
+  const Index_lists neighbours = neighbours_of_vertices(mesh);
+  const std::vector<std::uint8_t> borders = border_flags(mesh);
+  Curvature_average average(mesh, neighbours, field, borders);
+  std::vector<Curvature_tensor> tensors(mesh.points.size());
+  for (std::size_t i = 0; i < tensors.size(); ++i) tensors[i] = average(i, radius).tensor;
+  return tensors;
+}
 
 } // namespace internal
 } // namespace Crude_registration

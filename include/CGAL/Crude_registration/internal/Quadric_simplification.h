@@ -63,38 +63,34 @@ struct Plane_quadric
     weight += times * q.weight;
   }
 
-  // Half the gradient, A p + b.
-  Vector half_gradient(const Vector& p) const
-  {
-    return Vector(xx * p.x() + xy * p.y() + xz * p.z() + x, xy * p.x() + yy * p.y() + yz * p.z() + y,
-                  xz * p.x() + yz * p.y() + zz * p.z() + z);
-  }
-
-  double mean_squared_distance(const Vector& p) const
-  {
-    if (!(weight > 0)) return 0;
-    const double value = half_gradient(p).dot(p) + x * p.x() + y * p.y() + z * p.z() + c;
-    return (std::max)(value, 0.0) / weight;
-  }
-
-  // The minimiser of value(p) + stiffness * weight * |p - anchor|^2: the point of least distance to the planes in the
+  // The minimiser p of value(p) + stiffness * weight * |p - anchor|^2: the point of least distance to the planes in the
   // directions that the planes determine, the anchor's in the others. Relative to the planes' own weight, so the unit
-  // of length does not matter, and never further from the anchor than its own distance to the planes (root mean square)
-  // over sqrt(stiffness).
-  Vector optimum_near(const Vector& anchor, double stiffness) const
+  // of length does not matter, and never further from the anchor than the anchor's own distance to the planes (root
+  // mean square) over sqrt(stiffness).
+  struct Optimum
   {
-    const Vector g = half_gradient(anchor);
-    const double s = stiffness * weight;
-    // Cholesky (LDL^T); the matrix is positive definite with a condition of at most 1 + 1 / stiffness.
-    const double d0 = xx + s;
-    if (!(d0 > 0)) return anchor;
-    const double i0 = 1 / d0, l1 = xy * i0, l2 = xz * i0;
-    const double d1 = yy + s - l1 * xy, m = yz - l1 * xz;
-    const double i1 = 1 / d1, l3 = m * i1;
-    const double d2 = zz + s - l2 * xz - l3 * m;
-    const double y0 = -g.x(), y1 = -g.y() - l1 * y0, y2 = -g.z() - l2 * y0 - l3 * y1;
-    const double r2 = y2 / d2, r1 = y1 * i1 - l3 * r2, r0 = y0 * i0 - l1 * r1 - l2 * r2;
-    return anchor + Vector(r0, r1, r2);
+    Vector position;
+    double mean_squared_distance;
+  };
+
+  Optimum optimum_near(const Vector& anchor, double stiffness) const
+  {
+    if (!(weight > 0)) return {anchor, 0};
+    const double inverse_weight = 1 / weight, s = stiffness * weight;
+    // g = A anchor + b, half the gradient; then (A + s I) step = -g, by the adjugate: the condition is at most
+    // 1 + 1 / stiffness.
+    const Vector g(xx * anchor.x() + xy * anchor.y() + xz * anchor.z() + x,
+                   xy * anchor.x() + yy * anchor.y() + yz * anchor.z() + y,
+                   xz * anchor.x() + yz * anchor.y() + zz * anchor.z() + z);
+    const double m00 = xx + s, m11 = yy + s, m22 = zz + s;
+    const double a00 = m11 * m22 - yz * yz, a01 = xz * yz - xy * m22, a02 = xy * yz - xz * m11,
+                 a11 = m00 * m22 - xz * xz, a12 = xy * xz - m00 * yz, a22 = m00 * m11 - xy * xy;
+    const double scale = -1 / (m00 * a00 + xy * a01 + xz * a02);
+    const Vector step = scale * Vector(a00 * g.x() + a01 * g.y() + a02 * g.z(), a01 * g.x() + a11 * g.y() + a12 * g.z(),
+                                       a02 * g.x() + a12 * g.y() + a22 * g.z());
+    // value(anchor + step) = value(anchor) + 2 g.step + step.A step, where A step = -g - s step.
+    const double value = (g + Vector(x, y, z)).dot(anchor) + c + g.dot(step) - s * step.squaredNorm();
+    return {anchor + step, (std::max)(value, 0.0) * inverse_weight};
   }
 };
 
@@ -463,9 +459,9 @@ private:
     }
   }
 
-  static Vector placement(const Plane_quadric& quadric, const Vector& centroid, double area)
+  static Plane_quadric::Optimum placement(const Plane_quadric& quadric, const Vector& centroid, double area)
   {
-    return quadric.optimum_near(area > 0 ? Vector(centroid / area) : centroid, stiffness);
+    return quadric.optimum_near(area > 0 ? Vector((1 / area) * centroid) : centroid, stiffness);
   }
 
   void place_groups(double cell)
@@ -474,11 +470,11 @@ private:
     m_group_positions.resize(m_vertices.size());
     for (std::size_t i = 0; i < m_vertices.size(); ++i) {
       Vertex& v = m_vertices[i];
-      v.position = placement(v.quadric, v.centroid, v.area);
-      if (v.area > 0) {
+      v.position = placement(v.quadric, v.centroid, v.area).position;
+      if (v.area > 0 && cell > 0) {
         const Vector centroid = v.centroid / v.area, shift = v.position - centroid;
         const double length = shift.norm();
-        if (cell > 0 && length > cell) v.position = centroid + (cell / length) * shift;
+        if (length > cell) v.position = centroid + (cell / length) * shift;
       }
       m_parents[i] = std::int32_t(i);
       m_group_positions[i] = v.position;
@@ -510,28 +506,20 @@ private:
     }
   }
 
-  struct Target
-  {
-    Vector position;
-    double cost;
-  };
-
-  Target target(std::int32_t a, std::int32_t b) const
+  // Where the vertex that replaces a and b goes, and what it costs.
+  Plane_quadric::Optimum target(std::int32_t a, std::int32_t b) const
   {
     const Vertex &v = m_vertices[std::size_t(a)], &w = m_vertices[std::size_t(b)];
     Plane_quadric quadric = v.quadric;
     quadric.add(w.quadric);
-    Target t;
-    t.position = placement(quadric, v.centroid + w.centroid, v.area + w.area);
-    t.cost = quadric.mean_squared_distance(t.position);
-    return t;
+    return placement(quadric, v.centroid + w.centroid, v.area + w.area);
   }
 
   void push_edge(std::int32_t a, std::int32_t b)
   {
     const double tie =
         tilt2 * (m_vertices[std::size_t(a)].position - m_vertices[std::size_t(b)].position).squaredNorm();
-    m_queue.push(m_key_unit * (target(a, b).cost + tie), m_edges.size());
+    m_queue.push(m_key_unit * (target(a, b).mean_squared_distance + tie), m_edges.size());
     m_edges.push_back({(std::min)(a, b), (std::max)(a, b), m_versions[std::size_t(a)] + m_versions[std::size_t(b)]});
   }
 
@@ -664,22 +652,23 @@ private:
         m_queue.pop();
         continue;
       }
-      const Target t = target(e.a, e.b);
-      if (!go_on(t.cost)) return;
+      const Plane_quadric::Optimum t = target(e.a, e.b);
+      if (!go_on(t.mean_squared_distance)) return;
       m_queue.pop();
 
       gather(e.a, m_star_a);
       gather(e.b, m_star_b);
-      const bool valid = is_collapse_valid(e.a, e.b) && keeps_orientation(e.a, e.b, m_star_a, t.position) &&
-                         keeps_orientation(e.a, e.b, m_star_b, t.position);
+      if (is_collapse_valid(e.a, e.b) && keeps_orientation(e.a, e.b, m_star_a, t.position) &&
+          keeps_orientation(e.a, e.b, m_star_b, t.position)) {
+        m_error = (std::max)(m_error, t.mean_squared_distance);
+        merge(e.a, e.b, t.position);
+        for (std::int32_t v : m_star_a.neighbours)
+          if (v != e.b) push_edge(e.a, v);
+        for (std::int32_t v : m_star_b.neighbours)
+          if (v != e.a && m_star_a.count[std::size_t(v)] == 0) push_edge(e.a, v);
+      }
       clear(m_star_a);
       clear(m_star_b);
-      if (!valid) continue;
-      m_error = (std::max)(m_error, t.cost);
-      merge(e.a, e.b, t.position);
-      gather(e.a, m_star_a);
-      for (std::int32_t v : m_star_a.neighbours) push_edge(e.a, v);
-      clear(m_star_a);
     }
   }
 

@@ -9,6 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_GEOMETRY_H
 
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
+#include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
@@ -151,9 +152,13 @@ inline Index_lists neighbours_of_vertices(const Flat_mesh& mesh)
 template <class Face_graph, class NP>
 auto const_vertex_point_map(const Face_graph& graph, const NP& np)
 {
-  using CGAL::parameters::choose_parameter;
-  using CGAL::parameters::get_parameter;
-  return choose_parameter(get_parameter(np, internal_np::vertex_point), get_const_property_map(vertex_point, graph));
+  return parameter(np, internal_np::vertex_point, get_const_property_map(vertex_point, graph));
+}
+
+template <class Face_graph, class NP>
+auto mutable_vertex_point_map(Face_graph& graph, const NP& np)
+{
+  return parameter(np, internal_np::vertex_point, get_property_map(vertex_point, graph));
 }
 
 // A FaceGraph as flat arrays: vertices and faces in the order of vertices(graph) and faces(graph), vertices without a

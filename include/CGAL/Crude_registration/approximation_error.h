@@ -1,0 +1,150 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_APPROXIMATION_ERROR_H
+#define CGAL_CRUDE_REGISTRATION_APPROXIMATION_ERROR_H
+
+#include <CGAL/Crude_registration/internal/Curvature_tensors.h>
+#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/scan_frame.h>
+#include <CGAL/Crude_registration/named_parameters.h>
+#include <CGAL/Crude_registration/surface_types.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace CGAL {
+namespace Crude_registration {
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief the edge lengths of the box that contains a scan, along the axes of the image plane and along the depth axis.
+ */
+struct Scan_extent
+{
+  double horizontal = 0; ///< \f$ D_x \f$
+  double vertical = 0;   ///< \f$ D_y \f$
+  double depth = 0;      ///< \f$ D_z \f$
+
+  /// \f$ A = \max(D_x, D_y) \f$
+  double image_size() const { return (std::max)(horizontal, vertical); }
+  /// \f$ M = (D_x + D_y + D_z) / 3 \f$
+  double mean() const { return (horizontal + vertical + depth) / 3; }
+};
+
+namespace internal {
+
+// The sampling distance, the surface types and the extent put together: section 4 of the paper. A scan without any
+// smooth vertex would have no finite error; below one per cent the share of smooth vertices counts as one per cent.
+inline double approximation_error(double sampling_distance, double image_size, double percent_smooth)
+{
+  return 0.15 * sampling_distance * image_size / (std::max)(percent_smooth, 1.0);
+}
+
+// The direction from the sensor into the scene that the parameters give; null if none.
+template <class NamedParameters>
+Vector given_viewing_direction([[maybe_unused]] const Flat_mesh& mesh, [[maybe_unused]] const NamedParameters& np,
+                               [[maybe_unused]] const std::string& function)
+{
+  Vector direction = Vector::Zero();
+  if constexpr (is_given<NamedParameters, internal_np::viewing_direction_t>) {
+    const auto d = parameter(np, internal_np::viewing_direction, 0);
+    direction = unit_or_zero(Vector(to_double(d.x()), to_double(d.y()), to_double(d.z())));
+    if (!direction.allFinite() || direction.isZero(0))
+      throw std::invalid_argument(function + ": viewing_direction is null or not finite");
+  } else if constexpr (is_given<NamedParameters, internal_np::viewpoint_t>) {
+    const auto p = parameter(np, internal_np::viewpoint, 0);
+    const Vector viewpoint(to_double(p.x()), to_double(p.y()), to_double(p.z()));
+    if (!viewpoint.allFinite()) throw std::invalid_argument(function + ": viewpoint is not finite");
+    // To the centroid of the surface, where scan_frame() has its origin. At the viewpoint: no direction.
+    direction = unit_or_zero(scan_frame(mesh).inverse().translation - viewpoint);
+  }
+  return direction;
+}
+
+template <class NamedParameters>
+Scan_extent scan_extent(const Flat_mesh& mesh, const NamedParameters& np, const std::string& function)
+{
+  const Vector d = extent_in_frame(mesh, scan_frame(mesh, given_viewing_direction(mesh, np, function)));
+  return {d.x(), d.y(), d.z()};
+}
+
+template <class NamedParameters>
+double approximation_error(const Flat_mesh& mesh, const NamedParameters& np, const std::string& function)
+{
+  const double s = positive_parameter(np, internal_np::sampling_distance,
+                                      // An empty or degenerate mesh has an error of 0.
+                                      (std::max)(median_edge_length(mesh), (std::numeric_limits<double>::min)()),
+                                      function.c_str(), "sampling_distance");
+  return approximation_error(s, scan_extent(mesh, np, function).image_size(),
+                             count_surface_types(curvature_tensors(mesh), flat_curvature(mesh)).percent_smooth());
+}
+
+} // namespace internal
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief measures a scan along the axes of its image plane and along its depth axis, as the paper does.
+ *
+ * The axes move with the scan, so that a moved scan has the same extent. The depth axis is the sensor's where it is
+ * known (`viewing_direction` or `viewpoint`), the mean normal of the surface where it is not, and, for closed meshes,
+ * whose normals cancel, the axis of least variance. The image plane is perpendicular to it; its horizontal axis is that
+ * of the largest variance. For a range image, whose grid says what the axes are, see the overload.
+ *
+ * \tparam FaceGraph a model of `FaceListGraph`
+ * \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+ *
+ * \param mesh a triangle mesh; vertices without a face do not count
+ * \param np an optional sequence of named parameters among the ones listed below:
+ *   - `vertex_point_map`: default `get(CGAL::vertex_point, mesh)`
+ *   - `viewing_direction`: a `Vector_3`, from the sensor into the scene
+ *   - `viewpoint`: a `Point_3`, the place of the sensor
+ *
+ * \throws std::invalid_argument if a face of `mesh` is not a triangle or a coordinate is not finite.
+ */
+template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
+Scan_extent scan_extent(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values())
+{
+  return internal::scan_extent(internal::to_flat_mesh(mesh, np, "scan_extent", "mesh"), np, "scan_extent");
+}
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief the paper's approximation error \f$ \epsilon = 0.15 \, s \, A / \%smooth \f$ of a scan: how far, as a mean
+ * squared distance, `simplify_scan()` may leave the original surface. A squared length.
+ *
+ * \f$ s \f$ is the sampling distance, \f$ A \f$ the larger extent in the image plane (`scan_extent()`), \f$ \%smooth
+ * \f$ the share of the vertices that are not hyperbolic (`surface_types()`).
+ *
+ * \tparam FaceGraph a model of `FaceListGraph`
+ * \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+ *
+ * \param mesh a triangle mesh
+ * \param np an optional sequence of named parameters among the ones listed below:
+ *   - `vertex_point_map`: default `get(CGAL::vertex_point, mesh)`
+ *   - `sampling_distance`: \f$ s \f$, a length above zero; default: the median length of the edges
+ *   - `viewing_direction`, `viewpoint`: as for `scan_extent()`
+ *
+ * \throws std::invalid_argument if a face of `mesh` is not a triangle, a coordinate is not finite, or the sampling
+ * distance is not a finite number above zero.
+ */
+template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
+double approximation_error(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values())
+{
+  return internal::approximation_error(internal::to_flat_mesh(mesh, np, "approximation_error", "mesh"), np,
+                                       "approximation_error");
+}
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_APPROXIMATION_ERROR_H
