@@ -96,15 +96,15 @@ private:
     return n;
   }
 
-  const Vector& point(std::size_t cell) const { return m_image.point(m_image.grid[cell]); }
+  std::size_t sample(std::size_t cell) const { return static_cast<std::size_t>(m_image.grid[cell]); }
+  const Vector& point(std::size_t cell) const { return m_image.points[sample(cell)]; }
   bool is_valid(std::size_t cell) const { return m_image.grid[cell] >= 0; }
 
   double squared_length(std::size_t p, std::size_t q) const { return (point(p) - point(q)).squaredNorm(); }
 
   double squared_limit(std::size_t p, std::size_t q) const
   {
-    return std::min(m_squared_limits[static_cast<std::size_t>(m_image.grid[p])],
-                    m_squared_limits[static_cast<std::size_t>(m_image.grid[q])]);
+    return std::min(m_squared_limits[sample(p)], m_squared_limits[sample(q)]);
   }
 
   bool is_short(std::size_t p, std::size_t q) const { return squared_length(p, q) <= squared_limit(p, q); }
@@ -170,8 +170,8 @@ private:
     for (unsigned corner = 0; corner < 4; ++corner)
       for (unsigned code = 0; code < 16; ++code) table[corner][code] = sectors(code, static_cast<Corner>(corner));
     const std::size_t columns = m_image.columns;
-    m_vertices.assign(columns * m_image.rows, -1);
-    m_fan_starts.assign(columns * m_image.rows, 0);
+    m_vertices.assign(m_image.points.size(), -1);
+    m_fan_starts.assign(m_image.points.size(), 0);
     mesh.points.reserve(m_image.points.size());
     for (std::size_t row = 0; row < m_image.rows; ++row) {
       for (std::size_t column = 0; column < columns; ++column) {
@@ -182,11 +182,12 @@ private:
         if (row > 0) covered |= table[C][m_codes[cell - columns]];
         if (column > 0 && row > 0) covered |= table[D][m_codes[cell - columns - 1]];
         if (covered == 0) continue;
-        m_vertices[cell] = static_cast<std::int32_t>(mesh.points.size());
+        const std::size_t i = sample(cell);
+        m_vertices[i] = static_cast<std::int32_t>(mesh.points.size());
         const unsigned starts = fan_starts(covered);
         const unsigned fans = std::max(1u, count_bits(starts)); // a fan all around has no start
-        if (fans > 1) m_fan_starts[cell] = static_cast<std::uint8_t>(starts);
-        mesh.points.insert(mesh.points.end(), fans, point(cell));
+        if (fans > 1) m_fan_starts[i] = static_cast<std::uint8_t>(starts);
+        mesh.points.insert(mesh.points.end(), fans, m_image.points[i]);
       }
     }
   }
@@ -195,6 +196,7 @@ private:
   {
     mesh.faces.reserve(m_number_of_faces);
     for (std::size_t cell = 0; cell < m_codes.size(); ++cell) {
+      if (m_codes[cell] == 0) continue;
       for (unsigned t = 0; t < 4; ++t) {
         if ((m_codes[cell] >> t & 1u) == 0) continue;
         std::array<std::int32_t, 3> face;
@@ -208,20 +210,20 @@ private:
   // the vertex that stands for a corner of a triangle: that of the fan the triangle is in
   std::int32_t vertex(std::size_t cell, unsigned t, Corner corner) const
   {
-    const std::size_t sample = cell_of_corner(cell, corner);
-    const unsigned starts = m_fan_starts[sample];
-    if (starts == 0) return m_vertices[sample];
+    const std::size_t i = sample(cell_of_corner(cell, corner));
+    const unsigned starts = m_fan_starts[i];
+    if (starts == 0) return m_vertices[i];
     const unsigned sector = first_sector[corner] + (sectors_at_corner[corner][t] == 2 ? 1 : 0);
     const unsigned fans = count_bits(starts);
     const unsigned fan = (count_bits(starts & ((2u << sector) - 1)) + fans - 1) % fans; // before the first: the last
-    return m_vertices[sample] + static_cast<std::int32_t>(fan);
+    return m_vertices[i] + static_cast<std::int32_t>(fan);
   }
 
   const Flat_range_image& m_image;
   std::vector<double> m_squared_limits;   // per sample
   std::vector<std::uint8_t> m_codes;      // per cell: the set of its triangles, by its corner A
-  std::vector<std::int32_t> m_vertices;   // per cell: the first vertex of its sample
-  std::vector<std::uint8_t> m_fan_starts; // per cell: 0, or the first sectors of a bow tie's fans
+  std::vector<std::int32_t> m_vertices;   // per sample: its first vertex
+  std::vector<std::uint8_t> m_fan_starts; // per sample: 0, or the first sectors of a bow tie's fans
   std::size_t m_number_of_faces = 0;
   bool m_is_reversed = false;
 };

@@ -33,6 +33,9 @@ struct Ply_contents
   bool has_grid = false; // is there an `element range_grid`?
   std::size_t columns = 0, rows = 0;
   std::vector<std::int32_t> grid; // row by row; -1 where there is no sample
+  bool has_viewpoint = false,
+       has_viewing_direction = false; // `obj_info viewpoint x y z`, as write_range_image() writes
+  std::array<double, 3> viewpoint = {0, 0, 0}, viewing_direction = {0, 0, 0};
   std::vector<std::vector<std::size_t>> faces;
 };
 
@@ -201,10 +204,29 @@ private:
   void read_obj_info(Text_cursor& cursor)
   {
     const std::string_view key = cursor.word();
-    if (key != "num_cols" && key != "num_rows") return;
-    const long long n = cursor.integer(key == "num_cols" ? "num_cols" : "num_rows");
+    if (key == "num_cols") m_contents.columns = read_size(cursor, "num_cols");
+    if (key == "num_rows") m_contents.rows = read_size(cursor, "num_rows");
+    if (key == "viewpoint") m_contents.has_viewpoint = read_vector(cursor, m_contents.viewpoint, "viewpoint");
+    if (key == "viewing_direction")
+      m_contents.has_viewing_direction = read_vector(cursor, m_contents.viewing_direction, "viewing_direction");
+    if (m_contents.has_viewing_direction && m_contents.viewing_direction == std::array<double, 3>{0, 0, 0})
+      cursor.fail("viewing_direction is null");
+  }
+
+  static std::size_t read_size(Text_cursor& cursor, const char* key)
+  {
+    const long long n = cursor.integer(key);
     if (n <= 0) cursor.fail(std::string(key) + " is not positive");
-    (key == "num_cols" ? m_contents.columns : m_contents.rows) = static_cast<std::size_t>(n);
+    return static_cast<std::size_t>(n);
+  }
+
+  static bool read_vector(Text_cursor& cursor, std::array<double, 3>& v, const char* key)
+  {
+    for (double& coordinate : v) {
+      coordinate = cursor.number(key);
+      if (!std::isfinite(coordinate)) cursor.fail(std::string(key) + " is not finite");
+    }
+    return true;
   }
 
   // which properties are read as what

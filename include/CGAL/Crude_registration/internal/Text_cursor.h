@@ -91,6 +91,9 @@ public:
     return std::string_view(first, static_cast<std::size_t>(last - first));
   }
 
+  // what is left of the line
+  std::string_view rest() const { return std::string_view(m_word, static_cast<std::size_t>(m_line_end - m_word)); }
+
   // the next word as a number, which may be infinite or NaN; `what` names it in the error
   double number(const char* what)
   {

@@ -1,0 +1,98 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_IO_READ_RANGE_IMAGE_H
+#define CGAL_CRUDE_REGISTRATION_IO_READ_RANGE_IMAGE_H
+
+#include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/Range_image.h>
+#include <CGAL/Crude_registration/estimate_sensor.h>
+#include <CGAL/Crude_registration/internal/Ply_reader.h>
+#include <CGAL/Crude_registration/internal/read_file.h>
+
+#include <istream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The range image in a PLY file that has one; the sensor as the file says, or estimated from the grid.
+template <class Kernel>
+Range_image<Kernel> to_range_image(Ply_contents&& ply, const std::string& file)
+{
+  typedef typename Kernel::Point_3 Point_3;
+  if (ply.points.empty()) throw IO_error(file, "the range image has no samples");
+  std::vector<Point_3> points;
+  points.reserve(ply.points.size());
+  for (const auto& p : ply.points) points.emplace_back(p[0], p[1], p[2]);
+  Range_image<Kernel> image(ply.columns, ply.rows, std::move(points), std::move(ply.grid));
+  const auto& v = ply.viewpoint;
+  const auto& d = ply.viewing_direction;
+  if (ply.has_viewpoint) image.set_sensor(Sensor<Kernel>::perspective(Point_3(v[0], v[1], v[2])));
+  else if (ply.has_viewing_direction)
+    image.set_sensor(Sensor<Kernel>::orthographic(typename Kernel::Vector_3(d[0], d[1], d[2])));
+  else image.set_sensor(estimate_sensor(image));
+  return image;
+}
+
+template <class Kernel>
+void parse_range_image(const std::string& data, const std::string& file, Range_image<Kernel>& image)
+{
+  Ply_contents ply = read_ply(data, file);
+  if (!ply.has_grid) throw IO_error(file, "not a range image: the file has no 'element range_grid'");
+  image = to_range_image<Kernel>(std::move(ply), file);
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief reads a range image from a PLY file with an `element range_grid`, as those of the Stanford 3D Scanning
+Repository.
+
+The encodings are ascii, binary little endian and binary big endian. The grid has `obj_info num_cols` times
+`obj_info num_rows` cells, row by row, each of which is a list of no vertex or of one. All else in the file is passed
+over, except `obj_info viewpoint x y z` and `obj_info viewing_direction x y z`, which `write_range_image()` writes: they
+give the image its sensor. Without them, the sensor is what `estimate_sensor()` finds in the grid.
+
+\param filename the name of the file
+\param image the output, in the unit and frame of the file; left as it was where an error is thrown
+
+\throws IO_error if the file cannot be opened or does not parse: it is cut off; a word is not a number; an index is
+outside the vertices or in two cells; `num_cols` or `num_rows` is missing or does not match the grid; a coordinate is
+NaN or infinite; there is no grid or no sample.
+*/
+template <class Kernel>
+void read_range_image(const std::string& filename, Range_image<Kernel>& image)
+{
+  internal::parse_range_image(internal::read_file(filename), filename, image);
+}
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief reads a range image from a stream, opened as binary, that holds a PLY file; `name` stands for it in errors.
+
+\sa `read_range_image(const std::string&, Range_image<Kernel>&)`
+*/
+template <class Kernel>
+void read_range_image(std::istream& in, Range_image<Kernel>& image, const std::string& name = "stream")
+{
+  const std::string data((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (in.bad()) throw IO_error(name, "the stream cannot be read");
+  internal::parse_range_image(data, name, image);
+}
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_IO_READ_RANGE_IMAGE_H
