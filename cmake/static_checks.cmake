@@ -1,0 +1,90 @@
+# Checks that read the sources: headers that compile alone (tests), formatting (test and target check_format),
+# clang-tidy (target check_tidy). Each is there where its tool is.
+
+file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/*.h)
+file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.cpp
+     ${PROJECT_SOURCE_DIR}/benchmark/*.cpp ${PROJECT_SOURCE_DIR}/test/*.cpp)
+
+# Every header is compiled alone, twice in a row, by each compiler there is, with all warnings as errors. One file
+# carries the compile flags of all.
+file(WRITE ${PROJECT_BINARY_DIR}/headers/flags.cpp "")
+add_library(headers_alone_flags OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers/flags.cpp)
+target_link_libraries(headers_alone_flags PRIVATE CGAL::CGAL CGAL::Eigen3_support
+  $<TARGET_NAME_IF_EXISTS:CGAL::TBB_support>)
+set(includes "$<FILTER:$<TARGET_PROPERTY:headers_alone_flags,INCLUDE_DIRECTORIES>,EXCLUDE,^/usr/include(/[^/]*-linux-[^/]*)?$>")
+set(definitions "$<TARGET_PROPERTY:headers_alone_flags,COMPILE_DEFINITIONS>")
+
+find_program(CRUDE_REGISTRATION_GCC NAMES g++ g++-12)
+find_program(CRUDE_REGISTRATION_CLANG NAMES clang++ clang++-14)
+mark_as_advanced(CRUDE_REGISTRATION_GCC CRUDE_REGISTRATION_CLANG)
+include(ProcessorCount)
+ProcessorCount(processors)
+if(CMAKE_GENERATOR MATCHES "Ninja")
+  set(keep_going -- -k 0)
+endif()
+foreach(kind gcc clang)
+  string(TOUPPER CRUDE_REGISTRATION_${kind} compiler)
+  if(NOT ${compiler})
+    continue()
+  endif()
+  set(stamps "")
+  foreach(header IN LISTS headers)
+    string(MAKE_C_IDENTIFIER ${header} name)
+    set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
+    set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.${kind})
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}> // NOLINT: guarded\n")
+    add_custom_command(OUTPUT ${stamp}
+      COMMAND ${${compiler}} -std=c++17 -fsyntax-only -frounding-math -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+              -I${PROJECT_SOURCE_DIR}/include
+              "$<$<BOOL:${includes}>:-isystem$<JOIN:${includes},;-isystem>>"
+              "$<$<BOOL:${definitions}>:-D$<JOIN:${definitions},;-D>>"
+              -MMD -MT ${stamp} -MF ${stamp}.d ${source}
+      COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
+      DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${header} alone (${kind})")
+    list(APPEND stamps ${stamp})
+  endforeach()
+  add_custom_target(headers_alone_${kind} DEPENDS ${stamps})
+  if(CRUDE_REGISTRATION_WITH_TESTS)
+    add_test(NAME headers_alone_${kind}
+      COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target headers_alone_${kind} --parallel ${processors}
+              ${keep_going})
+    set_tests_properties(headers_alone_${kind} PROPERTIES RUN_SERIAL ON TIMEOUT 900)
+  endif()
+endforeach()
+
+# Formatting: the answer depends on the version.
+find_program(CRUDE_REGISTRATION_CLANG_FORMAT NAMES clang-format-14)
+mark_as_advanced(CRUDE_REGISTRATION_CLANG_FORMAT)
+set(absolute_headers ${headers})
+list(TRANSFORM absolute_headers PREPEND ${PROJECT_SOURCE_DIR}/include/)
+if(CRUDE_REGISTRATION_CLANG_FORMAT)
+  set(check_format ${CRUDE_REGISTRATION_CLANG_FORMAT} --dry-run --Werror ${absolute_headers} ${programs})
+  add_custom_target(check_format COMMAND ${check_format} VERBATIM)
+  add_custom_target(format COMMAND ${CRUDE_REGISTRATION_CLANG_FORMAT} -i ${absolute_headers} ${programs} VERBATIM)
+  if(CRUDE_REGISTRATION_WITH_TESTS)
+    add_test(NAME check_format COMMAND ${check_format})
+  endif()
+endif()
+
+# clang-tidy with the checks of .clang-tidy, a program at a time; its findings in headers are in the programs that
+# include them.
+find_program(CRUDE_REGISTRATION_CLANG_TIDY NAMES clang-tidy-14 clang-tidy)
+mark_as_advanced(CRUDE_REGISTRATION_CLANG_TIDY)
+if(CRUDE_REGISTRATION_CLANG_TIDY)
+  set(stamps "")
+  foreach(program IN LISTS programs)
+    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${program})
+    if(name MATCHES "^test/consumer/")
+      continue()
+    endif()
+    string(MAKE_C_IDENTIFIER ${name} stamp)
+    set(stamp ${PROJECT_BINARY_DIR}/tidy/${stamp})
+    add_custom_command(OUTPUT ${stamp}
+      COMMAND ${CRUDE_REGISTRATION_CLANG_TIDY} --quiet --warnings-as-errors=* -p ${PROJECT_BINARY_DIR} ${program}
+      COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
+      DEPENDS ${program} ${absolute_headers} ${PROJECT_SOURCE_DIR}/.clang-tidy VERBATIM COMMENT "clang-tidy ${name}")
+    list(APPEND stamps ${stamp})
+  endforeach()
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/tidy)
+  add_custom_target(check_tidy DEPENDS ${stamps})
+endif()

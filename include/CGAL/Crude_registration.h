@@ -1,0 +1,29 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+
+#ifndef CGAL_CRUDE_REGISTRATION_H
+#define CGAL_CRUDE_REGISTRATION_H
+
+#include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/Range_image.h>
+#include <CGAL/Crude_registration/Sensor.h>
+#include <CGAL/Crude_registration/Spatial_trihedron.h>
+#include <CGAL/Crude_registration/Vertex_pair_index.h>
+#include <CGAL/Crude_registration/approximation_error.h>
+#include <CGAL/Crude_registration/estimate_sensor.h>
+#include <CGAL/Crude_registration/make_statue.h>
+#include <CGAL/Crude_registration/match_trihedra.h>
+#include <CGAL/Crude_registration/named_parameters.h>
+#include <CGAL/Crude_registration/principal_curvatures.h>
+#include <CGAL/Crude_registration/rigid_motion.h>
+#include <CGAL/Crude_registration/simplify_scan.h>
+#include <CGAL/Crude_registration/simulate_range_image.h>
+#include <CGAL/Crude_registration/surface_types.h>
+#include <CGAL/Crude_registration/triangulate_range_image.h>
+
+#endif // CGAL_CRUDE_REGISTRATION_H

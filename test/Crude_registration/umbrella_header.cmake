@@ -1,0 +1,10 @@
+# Fails unless CGAL/Crude_registration.h includes every public header.
+file(GLOB_RECURSE headers RELATIVE ${include_dir} ${include_dir}/CGAL/Crude_registration/*.h)
+list(FILTER headers EXCLUDE REGEX "/internal/")
+file(READ ${include_dir}/CGAL/Crude_registration.h umbrella)
+foreach(header IN LISTS headers)
+  string(FIND "${umbrella}" "#include <${header}>\n" position)
+  if(position EQUAL -1)
+    message(SEND_ERROR "CGAL/Crude_registration.h does not include ${header}")
+  endif()
+endforeach()

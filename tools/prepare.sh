@@ -1,0 +1,56 @@
+# shellcheck shell=bash
+# Sourced by quickstart.sh and run_tests.sh, in the root of the project: installs what is missing and configures build/.
+
+say() { printf '\n== %s\n' "$*"; }
+
+install_missing_packages() {
+  local wanted missing=()
+  wanted=$(grep -v '^#' tools/debian_packages.txt | tr '\n' ' ')
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    say "No apt-get on this system: nothing is installed"
+    cat <<TXT
+Needed are a C++17 compiler, CMake (3.22 or later), CGAL (5.5.1 or later, with GMP and MPFR), Eigen (3.3 or later) and
+Boost (1.74 or later, with Program_options and the Unit Test Framework); Ninja, TBB and OpenMesh are used where they are.
+  Debian, Ubuntu: $wanted
+  Fedora:         gcc-c++ cmake ninja-build CGAL-devel eigen3-devel boost-devel tbb-devel
+  Arch:           gcc cmake ninja cgal eigen boost onetbb
+  macOS (brew):   cmake ninja cgal eigen boost tbb
+TXT
+    command -v cmake >/dev/null || exit 1
+    return
+  fi
+  for package in $wanted; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+
+  say "Installing ${missing[*]}"
+  local as_root=""
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "This needs root, and there is no sudo. As root: apt-get install ${missing[*]}" >&2
+      exit 1
+    fi
+    as_root=sudo
+  fi
+  $as_root apt-get update -q
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+configure() {
+  say "Configuring build/"
+  local options=()
+  if [ ! -f build/CMakeCache.txt ]; then
+    command -v ninja >/dev/null && options+=(-G Ninja)
+    command -v ccache >/dev/null && options+=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  local log
+  log=$(cmake -S . -B build -D CMAKE_BUILD_TYPE=Release ${options[@]+"${options[@]}"} 2>&1) || { echo "$log" >&2; exit 1; }
+}
+
+processors() { getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1; }
+
+build_targets() { # [TARGET...]
+  say "Building ${*:-everything} in build/ on $(processors) processors"
+  cmake --build build --parallel "$(processors)" ${1:+--target} "$@"
+}
