@@ -47,6 +47,22 @@ public:
   const Get_cost& get_cost() const { return *this; }
   const Get_placement& get_placement() const { return *this; }
 
+  // A vertex all of whose faces have no area has no plane, which the policies do not allow for: it gets the mean of the
+  // squared distances to all planes through it, with the weight of one plane.
+  template <class Point_map>
+  void initialize(const Triangle_mesh& mesh, const Point_map point_map, const Geom_traits& traits) const
+  {
+    Base::initialize(mesh, point_map, traits);
+    for (auto v : vertices(mesh)) {
+      if (number_of_planes(v) > 0) continue;
+      const auto& p = get(point_map, v);
+      typename Base::Mat_4 quadric = Base::Mat_4::Identity();
+      quadric.row(3) << -p.x(), -p.y(), -p.z(), p.x() * p.x() + p.y() * p.y() + p.z() * p.z();
+      quadric.col(3) = quadric.row(3).transpose().eval();
+      put(this->vcm(), v, quadric / 3);
+    }
+  }
+
   // Placement.
   template <class Profile>
   decltype(auto) operator()(const Profile& profile) const
@@ -117,10 +133,10 @@ struct Simplification_stop
  * The simplification stops as soon as the next collapse would cost more than `approximation_error` or
  * `number_of_vertices` are left. If neither is given, `approximation_error(mesh, np)` is used.
  *
- * The computations are done in `double`, in coordinates relative to the centre of the mesh's bounding box, whatever the
- * mesh's kernel; vertices that take part in no collapse keep their coordinates. As after any use of `edge_collapse()`,
- * removed elements of a `Surface_mesh` stay until `collect_garbage()` is called. The time is that of `edge_collapse()`,
- * n log n in the number of edges.
+ * Vertices without a face are removed. The computations are done in `double`, in coordinates relative to the centre of
+ * the mesh's bounding box, whatever the mesh's kernel; vertices that take part in no collapse keep their coordinates.
+ * As after any use of `edge_collapse()`, removed elements of a `Surface_mesh` stay until `collect_garbage()` is called.
+ * The time is that of `edge_collapse()`, n log n in the number of edges.
  *
  * \tparam TriangleMesh a model of `MutableFaceGraph` and `HalfedgeListGraph`
  * \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
@@ -149,7 +165,7 @@ std::size_t simplify_scan(TriangleMesh& mesh, const NamedParameters& np = parame
   const internal::Flat_mesh flat = internal::to_flat_mesh(mesh, np, "simplify_scan", "mesh");
   constexpr bool has_number = is_given<NamedParameters, internal_np::number_of_vertices_t>;
   constexpr bool has_error = is_given<NamedParameters, internal_np::approximation_error_t>;
-  std::size_t vertices_left = flat.points.size();
+  std::size_t vertices_left = 0;
   internal::Simplification_stop stop;
   stop.vertices_left = &vertices_left;
   stop.number_of_vertices = internal::count_parameter(np, internal_np::number_of_vertices, std::size_t(0), 0,
@@ -164,11 +180,15 @@ std::size_t simplify_scan(TriangleMesh& mesh, const NamedParameters& np = parame
   const internal::Vector centre = internal::centre_of_box(flat.points);
   const auto point_map = internal::mutable_vertex_point_map(mesh, np);
   Local_map local_map = get(CGAL::dynamic_vertex_property_t<Point>(), mesh);
+  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> isolated;
   std::size_t i = 0;
   for (auto v : vertices(mesh)) {
     const internal::Vector p = flat.points[i++] - centre;
     put(local_map, v, Point(p.x(), p.y(), p.z()));
+    if (halfedge(v, mesh) == boost::graph_traits<TriangleMesh>::null_halfedge()) isolated.push_back(v);
   }
+  for (auto v : isolated) remove_vertex(v, mesh);
+  vertices_left = flat.points.size() - isolated.size();
 
   const internal::Mean_squared_distance_policies<TriangleMesh, Kernel> policies(mesh);
   SMS::edge_collapse(mesh, stop,

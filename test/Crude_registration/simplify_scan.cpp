@@ -1,0 +1,205 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#define BOOST_TEST_MODULE simplify_scan
+#include <boost/test/unit_test.hpp>
+
+#include "generated_surfaces.h"
+
+#include <CGAL/Crude_registration/internal/Quadric_simplification.h>
+#include <CGAL/Crude_registration/internal/add_flat_mesh.h>
+#include <CGAL/Crude_registration/simplify_scan.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace CR = CGAL::Crude_registration;
+namespace parameters = CR::parameters;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using generated::Vector;
+
+namespace {
+
+template <class Face_graph = Mesh>
+Face_graph make_mesh(const CR::internal::Flat_mesh& flat)
+{
+  Face_graph mesh;
+  CR::internal::add_flat_mesh(flat, mesh, parameters::default_values());
+  return mesh;
+}
+
+struct Names
+{
+  std::string start;
+
+  bool operator()(const std::invalid_argument& e) const { return std::string(e.what()).rfind(start, 0) == 0; }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(stops_at_the_number_of_vertices)
+{
+  for (std::size_t n : {1000, 300, 50}) {
+    Mesh mesh = make_mesh(generated::bumps(40, 1, 0.002));
+    BOOST_TEST(CR::simplify_scan(mesh, parameters::number_of_vertices(n)) == n);
+    BOOST_TEST(mesh.number_of_vertices() == n);
+    BOOST_TEST(CGAL::is_triangle_mesh(mesh));
+    BOOST_TEST(CGAL::is_valid_polygon_mesh(mesh));
+  }
+  Mesh mesh = make_mesh(generated::bumps(10));
+  BOOST_TEST(CR::simplify_scan(mesh, parameters::number_of_vertices(100000)) == 121);
+}
+
+BOOST_AUTO_TEST_CASE(the_error_is_a_mean_squared_distance)
+{
+  // What is collapsed to one vertex has the mean squared distance to its planes: measured here for a mesh collapsed by
+  // the first stop that leaves a given number of vertices; the sum of the squares would stop a hundred times earlier.
+  const auto dense = generated::bumps(50, 1, 0.003);
+  std::size_t previous = dense.points.size() + 1;
+  for (double error : {0.0, 1e-7, 1e-6, 1e-5, 1e-4}) {
+    Mesh mesh = make_mesh(dense);
+    const std::size_t n = CR::simplify_scan(mesh, parameters::approximation_error(error));
+    BOOST_TEST(n < previous);
+    previous = n;
+    // The same cost and the same rules without a line of CGAL.
+    CR::internal::Quadric_simplification other(dense, 0);
+    other.collapse_to_error(error);
+    if (error > 0) BOOST_TEST(std::abs(double(n) - other.number_of_vertices()) < 0.2 * double(n));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(both_stops_and_neither)
+{
+  const auto dense = generated::bumps(40, 1, 0.002);
+  Mesh a = make_mesh(dense), b = a, c = a, d = a;
+  const std::size_t by_error = CR::simplify_scan(a, parameters::approximation_error(1e-5));
+  BOOST_TEST(by_error > 10);
+  BOOST_TEST(CR::simplify_scan(b, parameters::approximation_error(1e-5).number_of_vertices(by_error + 50)) ==
+             by_error + 50);
+  BOOST_TEST(CR::simplify_scan(c, parameters::number_of_vertices(10).approximation_error(1e-5)) == by_error);
+  Mesh e = d;
+  BOOST_TEST(CR::simplify_scan(d) ==
+             CR::simplify_scan(e, parameters::approximation_error(CR::approximation_error(make_mesh(dense)))));
+}
+
+BOOST_AUTO_TEST_CASE(units_and_frames_do_not_matter)
+{
+  const auto dense = generated::bumps(40, 1, 0.002);
+  const double error = 1e-5;
+  Mesh mesh = make_mesh(dense);
+  const double expected = double(CR::simplify_scan(mesh, parameters::approximation_error(error)));
+  generated::Random random(6);
+  for (double scale : {1e-3, 0.3048, 1.0, 1e4})
+    for (double distance : {0.0, 1.0, 1e4}) {
+      Mesh other = make_mesh(generated::moved(dense, random.motion(distance * scale), scale));
+      const double n = double(CR::simplify_scan(other, parameters::approximation_error(scale * scale * error)));
+      // Rounding decides between equal costs, and which way flat regions go.
+      BOOST_TEST(std::abs(n - expected) <= 0.03 * expected);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(vertices_without_collapse_keep_their_coordinates)
+{
+  const auto dense = generated::bumps(30, 1, 0.002);
+  CR::internal::Rigid_motion motion;
+  motion.translation = Vector(0.1, 1000.7, -3.3);
+  Mesh mesh = make_mesh(generated::moved(dense, motion));
+  std::set<Point> before;
+  for (Mesh::Vertex_index v : mesh.vertices()) before.insert(mesh.point(v));
+  CR::simplify_scan(mesh, parameters::number_of_vertices(900));
+  std::size_t kept = 0;
+  for (Mesh::Vertex_index v : mesh.vertices()) kept += before.count(mesh.point(v));
+  BOOST_TEST(kept >= 900 - 61);
+  BOOST_TEST(kept < 900);
+}
+
+BOOST_AUTO_TEST_CASE(every_kind_of_mesh)
+{
+  const auto dense = generated::bumps(25, 1, 0.002);
+  Mesh mesh = make_mesh(dense);
+  const std::size_t expected = CR::simplify_scan(mesh, parameters::approximation_error(1e-5));
+  using Exact_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+  auto polyhedron = make_mesh<CGAL::Polyhedron_3<Kernel>>(dense);
+  auto exact = make_mesh<CGAL::Surface_mesh<Exact_kernel::Point_3>>(dense);
+  BOOST_TEST(CR::simplify_scan(polyhedron, parameters::approximation_error(1e-5)) == expected);
+  BOOST_TEST(polyhedron.size_of_vertices() == expected);
+  BOOST_TEST(CR::simplify_scan(exact, parameters::approximation_error(1e-5)) == expected);
+}
+
+BOOST_AUTO_TEST_CASE(the_vertex_point_map_is_read_and_written)
+{
+  const auto dense = generated::bumps(25, 1, 0.002);
+  Mesh expected = make_mesh(dense), mesh = expected;
+  auto map = mesh.add_property_map<Mesh::Vertex_index, Point>("v:elsewhere").first;
+  for (Mesh::Vertex_index v : mesh.vertices()) {
+    map[v] = mesh.point(v);
+    mesh.point(v) = Point(7, 7, 7);
+  }
+  CR::simplify_scan(expected, parameters::number_of_vertices(100));
+  CR::simplify_scan(mesh, parameters::number_of_vertices(100).vertex_point_map(map));
+  auto w = expected.vertices().begin();
+  for (Mesh::Vertex_index v : mesh.vertices()) {
+    BOOST_TEST(map[v] == expected.point(*w++));
+    BOOST_TEST(mesh.point(v) == Point(7, 7, 7));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(closed_meshes_and_vertices_without_faces)
+{
+  Mesh mesh = make_mesh(generated::sphere(12, 1));
+  mesh.add_vertex(Point(0, 0, 0));
+  BOOST_TEST(CR::simplify_scan(mesh, parameters::number_of_vertices(50)) == 50);
+  mesh.collect_garbage();
+  BOOST_TEST(mesh.number_of_vertices() == 50);
+  BOOST_TEST(CGAL::is_closed(mesh));
+  for (Mesh::Vertex_index v : mesh.vertices())
+    BOOST_TEST(std::abs(std::sqrt((mesh.point(v) - CGAL::ORIGIN).squared_length()) - 1) < 0.2);
+  Mesh empty;
+  BOOST_TEST(CR::simplify_scan(empty) == 0);
+  Mesh triangle;
+  triangle.add_face(triangle.add_vertex(Point(0, 0, 0)), triangle.add_vertex(Point(1, 0, 0)),
+                    triangle.add_vertex(Point(0, 1, 0)));
+  BOOST_TEST(CR::simplify_scan(triangle, parameters::number_of_vertices(0)) == 3);
+}
+
+BOOST_AUTO_TEST_CASE(degenerate_faces)
+{
+  // Vertices all of whose faces have no area, and edges of length 0.
+  auto dense = generated::bumps(10);
+  for (std::size_t i : {12, 13, 23, 24, 25}) dense.points[i] = dense.points[14];
+  Mesh mesh = make_mesh(dense);
+  const std::size_t n = CR::simplify_scan(mesh, parameters::number_of_vertices(40));
+  BOOST_TEST(n == 40);
+  for (Mesh::Vertex_index v : mesh.vertices()) BOOST_TEST(std::isfinite(mesh.point(v).x()));
+}
+
+BOOST_AUTO_TEST_CASE(wrong_use_is_named)
+{
+  Mesh quad;
+  quad.add_face(quad.add_vertex(Point(0, 0, 0)), quad.add_vertex(Point(1, 0, 0)), quad.add_vertex(Point(1, 1, 0)),
+                quad.add_vertex(Point(0, 1, 0)));
+  BOOST_CHECK_EXCEPTION(CR::simplify_scan(quad), std::invalid_argument, Names{"simplify_scan: face 0 of mesh"});
+  Mesh mesh = make_mesh(generated::bumps(5));
+  for (double bad : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    BOOST_CHECK_EXCEPTION(CR::simplify_scan(mesh, parameters::approximation_error(bad)), std::invalid_argument,
+                          Names{"simplify_scan: approximation_error"});
+  BOOST_CHECK_EXCEPTION(CR::simplify_scan(mesh, parameters::number_of_vertices(-1)), std::invalid_argument,
+                        Names{"simplify_scan: number_of_vertices"});
+  BOOST_TEST(mesh.number_of_vertices() == 36);
+}
