@@ -9,15 +9,11 @@
 #define CGAL_CRUDE_REGISTRATION_MAKE_STATUE_H
 
 #include <CGAL/Crude_registration/internal/Statue.h>
+#include <CGAL/Crude_registration/internal/add_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
-#include <CGAL/boost/graph/Euler_operations.h>
-#include <CGAL/boost/graph/named_params_helper.h>
-
-#include <array>
 #include <cstdint>
 #include <stdexcept>
-#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -62,20 +58,7 @@ void make_statue(FaceGraph& mesh, int resolution, const NamedParameters& np = pa
   if (resolution < 8 || resolution > 1000)
     throw std::invalid_argument("make_statue: resolution has to be from 8 to 1000");
   const auto seed = static_cast<std::uint64_t>(internal::parameter(np, internal_np::random_seed, 0u));
-  auto point_map = internal::parameter(np, internal_np::vertex_point, get_property_map(vertex_point, mesh));
-  using Point = typename boost::property_traits<decltype(point_map)>::value_type;
-
-  const internal::Flat_mesh statue = internal::Statue(seed).surface(resolution);
-  std::vector<typename boost::graph_traits<FaceGraph>::vertex_descriptor> vertices;
-  vertices.reserve(statue.points.size());
-  for (const internal::Vector& p : statue.points) {
-    vertices.push_back(add_vertex(mesh));
-    put(point_map, vertices.back(), Point(p.x(), p.y(), p.z()));
-  }
-  for (const auto& f : statue.faces)
-    Euler::add_face(std::array{vertices[static_cast<std::size_t>(f[0])], vertices[static_cast<std::size_t>(f[1])],
-                               vertices[static_cast<std::size_t>(f[2])]},
-                    mesh);
+  internal::add_flat_mesh(internal::Statue(seed).surface(resolution), mesh, np);
 }
 
 } // namespace Crude_registration
