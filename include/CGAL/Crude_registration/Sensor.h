@@ -8,7 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SENSOR_H
 #define CGAL_CRUDE_REGISTRATION_SENSOR_H
 
-#include <CGAL/Crude_registration/internal/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/mesh_geometry.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/number_utils.h>
@@ -111,15 +111,11 @@ public:
   }
 
 private:
-  // divided by its largest component first, so that no square overflows or underflows
   static Vector_3 unit(const Vector_3& v)
   {
-    internal::Vector d(CGAL::to_double(v.x()), CGAL::to_double(v.y()), CGAL::to_double(v.z()));
-    const double largest = d.cwiseAbs().maxCoeff();
-    if (!(largest > 0) || !d.allFinite()) return CGAL::NULL_VECTOR;
-    d /= largest;
-    d /= d.norm();
-    return Vector_3(d.x(), d.y(), d.z());
+    const internal::Vector d = internal::unit_or_zero(
+        internal::Vector(CGAL::to_double(v.x()), CGAL::to_double(v.y()), CGAL::to_double(v.z())));
+    return d.allFinite() ? Vector_3(d.x(), d.y(), d.z()) : Vector_3(CGAL::NULL_VECTOR);
   }
 
   enum Kind
