@@ -11,6 +11,7 @@
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/Range_image.h>
+#include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/Spatial_trihedron.h>
 #include <CGAL/Crude_registration/Vertex_pair_index.h>
@@ -20,6 +21,7 @@
 #include <CGAL/Crude_registration/match_trihedra.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 #include <CGAL/Crude_registration/principal_curvatures.h>
+#include <CGAL/Crude_registration/refine_motion.h>
 #include <CGAL/Crude_registration/rigid_motion.h>
 #include <CGAL/Crude_registration/simplify_scan.h>
 #include <CGAL/Crude_registration/simulate_range_image.h>

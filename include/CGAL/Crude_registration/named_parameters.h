@@ -61,13 +61,13 @@ CGAL_CRUDE_REGISTRATION_OWN_PARAMETERS(CGAL_CRUDE_REGISTRATION_ADD)
 } // namespace internal_np
 
 /*!
- * \ingroup PkgCrudeRegistrationRef
- *
- * A pack of named parameters in which the names of this package and those of CGAL chain in any order.
- *
- * It is a `CGAL::Named_function_parameters` whose members return packs of its own kind; everything CGAL's look-up reads
- * lies in that base. Not written by hand: it is what the functions of `CGAL::Crude_registration::parameters` return.
- */
+\ingroup PkgCrudeRegistrationRef
+
+A pack of named parameters in which the names of this package and those of CGAL chain in any order.
+
+It is a `CGAL::Named_function_parameters` whose members return packs of its own kind; everything CGAL's look-up reads
+lies in that base. Not written by hand: it is what the functions of `CGAL::Crude_registration::parameters` return.
+*/
 template <class T, class Tag, class Base = CGAL::internal_np::No_property>
 struct Named_parameters : CGAL::Named_function_parameters<T, Tag, Base>
 {
@@ -97,14 +97,14 @@ struct Named_parameters : CGAL::Named_function_parameters<T, Tag, Base>
 };
 
 /*!
- * \ingroup PkgCrudeRegistrationRef
- *
- * Starts of packs of named parameters: `parameters::minimum_extent(0.1).vertex_point_map(vpm).viewpoint(p)`.
- *
- * A name starts a pack here and continues any pack that started here, whether it is of this package or one of the CGAL
- * names its functions understand; packs of `CGAL::parameters` are accepted by the functions of this package, too. Each
- * function documents which names it reads; others are ignored, as in CGAL. A name given twice counts as last given.
- */
+\ingroup PkgCrudeRegistrationRef
+
+Starts of packs of named parameters: `parameters::minimum_extent(0.1).vertex_point_map(vpm).viewpoint(p)`.
+
+A name starts a pack here and continues any pack that started here, whether it is of this package or one of the CGAL
+names its functions understand; packs of `CGAL::parameters` are accepted by the functions of this package, too. Each
+function documents which names it reads; others are ignored, as in CGAL. A name given twice counts as last given.
+*/
 namespace parameters {
 
 using CGAL::parameters::choose_parameter;

@@ -38,10 +38,10 @@ namespace CGAL {
 namespace Crude_registration {
 
 /*!
- * \ingroup PkgCrudeRegistrationRef
- *
- * What refine_motion() returns.
- */
+\ingroup PkgCrudeRegistrationRef
+
+What refine_motion() returns.
+*/
 template <class Kernel>
 struct Refined_motion
 {
@@ -95,25 +95,25 @@ class Vertex_tree
 
 public:
   explicit Vertex_tree(const Flat_mesh& mesh)
-      : normals_(vertex_normals(mesh)), is_border_(border_flags(mesh)), points_(to_points(mesh.points)),
-        distance_(Point_map{&points_}), tree_(Search::Splitter(), Traits(Point_map{&points_}))
+      : m_normals(vertex_normals(mesh)), m_is_border(border_flags(mesh)), m_points(to_points(mesh.points)),
+        m_distance(Point_map{&m_points}), m_tree(Search::Splitter(), Traits(Point_map{&m_points}))
   {
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      if (!normals_[i].isZero()) tree_.insert(std::int32_t(i));
-    if (!tree_.empty()) tree_.build();
+    for (std::size_t i = 0; i < m_points.size(); ++i)
+      if (!m_normals[i].isZero()) m_tree.insert(std::int32_t(i));
+    if (!m_tree.empty()) m_tree.build();
   }
 
   Vertex_tree(const Vertex_tree&) = delete;
   Vertex_tree& operator=(const Vertex_tree&) = delete;
 
-  bool empty() const { return tree_.empty(); }
+  bool empty() const { return m_tree.empty(); }
 
   bool closest(const Vector& query, double reach, Surface_point& answer) const
   {
-    const Search search(tree_, Point(query.x(), query.y(), query.z()), 1, 0, true, distance_);
+    const Search search(m_tree, Point(query.x(), query.y(), query.z()), 1, 0, true, m_distance);
     if (search.begin() == search.end() || !(search.begin()->second <= reach * reach)) return false;
     const std::size_t i = std::size_t(search.begin()->first);
-    answer = {Vector(points_[i].x(), points_[i].y(), points_[i].z()), normals_[i], is_border_[i] != 0};
+    answer = {Vector(m_points[i].x(), m_points[i].y(), m_points[i].z()), m_normals[i], m_is_border[i] != 0};
     return true;
   }
 
@@ -126,11 +126,11 @@ private:
     return points;
   }
 
-  std::vector<Vector> normals_;
-  std::vector<std::uint8_t> is_border_;
-  std::vector<Point> points_;
-  typename Search::Distance distance_;
-  typename Search::Tree tree_;
+  std::vector<Vector> m_normals;
+  std::vector<std::uint8_t> m_is_border;
+  std::vector<Point> m_points;
+  typename Search::Distance m_distance;
+  typename Search::Tree m_tree;
 };
 
 // Median length of the edges, those inside a mesh counted once for each of their faces.
@@ -177,48 +177,48 @@ Rigid_motion rigid_argument(const Aff_transformation_3<Kernel>& transformation, 
 } // namespace internal
 
 /*!
- * \ingroup PkgCrudeRegistrationRef
- *
- * Refines a rigid motion that already maps `source` close to `target`, by robust point-to-plane registration.
- *
- * Each iteration pairs every vertex of the source with the closest vertex of the target (in a Kd tree), leaves out
- * pairs that are too far apart, whose normals differ by more than 45 degrees or whose target vertex lies on the border
- * (Rusinkiewicz and Levoy 2001), weighs the rest by Tukey's biweight at the scale of the median residual, and takes one
- * Gauss-Newton step on the distances of the pairs along their common normals: Chen and Medioni's point-to-plane
- * distance in the symmetric form of Rusinkiewicz 2019, which needs fewer iterations on curved surfaces. The reach of
- * the correspondences shrinks with their median distance from `maximum_distance` down to two sampling distances.
- *
- * The iteration stops as soon as a step displaces the corresponding points by no more than `tolerance` sampling
- * distances (RMS). Motions about which the correspondences say nothing, such as sliding along a plane, are left as they
- * are in `initial_motion`.
- *
- * \tparam ConcurrencyTag `CGAL::Sequential_tag` (default), `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`;
- * the result is the same, bit for bit
- * \tparam SourceGraph, TargetGraph models of `FaceListGraph` with triangle faces
- * \tparam NamedParameters1, NamedParameters2 sequences of \ref bgl_namedparameters "Named Parameters"
- *
- * \param source the mesh to be moved
- * \param target the mesh that stays; faces of both are oriented alike, outwards or towards the sensor
- * \param initial_motion maps `source` into the frame of `target`
- * \param np_source, np_target optional named parameters of this package and of CGAL, among those below
- *
- * - `vertex_point_map(map)`, in either: the points of the vertices; `CGAL::vertex_point` by default
- * - `maximum_distance(d)`, in `np_source`: how far apart corresponding points may lie under `initial_motion`, in the
- *   unit of the coordinates; a fifth of the RMS radius of the target by default; not below two
- *   sampling distances
- * - `sampling_distance(s)`, in `np_source`: the sampling distance of the coarser mesh; the larger one of the median
- * edge lengths by default
- * - `tolerance(t)`, in `np_source`: the step, in sampling distances, that ends the iteration; 0.05 by default, a
- * fraction of what range scanners resolve
- * - `number_of_iterations(n)`, in `np_source`: the largest number of iterations; 50 by default
- *
- * \return the refined motion, which maps `source` into the frame of `target`, with what tells how good it is
- *
- * \throws std::invalid_argument if a mesh has no face with an area, a face that is not a triangle or a coordinate that
- * is not finite, if `initial_motion` is not rigid, or if a parameter is not a positive number
- *
- * For \f$ n \f$ vertices, \f$ O(n \log n) \f$ an iteration.
- */
+\ingroup PkgCrudeRegistrationRef
+
+Refines a rigid motion that already maps `source` close to `target`, by robust point-to-plane registration.
+
+Each iteration pairs every vertex of the source with the closest vertex of the target (in a Kd tree), leaves out
+pairs that are too far apart, whose normals differ by more than 45 degrees or whose target vertex lies on the border
+(Rusinkiewicz and Levoy 2001), weighs the rest by Tukey's biweight at the scale of the median residual, and takes one
+Gauss-Newton step on the distances of the pairs along their common normals: Chen and Medioni's point-to-plane
+distance in the symmetric form of Rusinkiewicz 2019, which needs fewer iterations on curved surfaces. The reach of
+the correspondences shrinks with their median distance from `maximum_distance` down to two sampling distances.
+
+The iteration stops as soon as a step displaces the corresponding points by no more than `tolerance` sampling
+distances (RMS). Motions about which the correspondences say nothing, such as sliding along a plane, are left as they
+are in `initial_motion`.
+
+\tparam ConcurrencyTag `CGAL::Sequential_tag` (default), `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`;
+the result is the same, bit for bit
+\tparam SourceGraph, TargetGraph models of `FaceListGraph` with triangle faces
+\tparam NamedParameters1, NamedParameters2 sequences of \ref bgl_namedparameters "Named Parameters"
+
+\param source the mesh to be moved
+\param target the mesh that stays; faces of both are oriented alike, outwards or towards the sensor
+\param initial_motion maps `source` into the frame of `target`
+\param np_source, np_target optional named parameters of this package and of CGAL, among those below
+
+- `vertex_point_map(map)`, in either: the points of the vertices; `CGAL::vertex_point` by default
+- `maximum_distance(d)`, in `np_source`: how far apart corresponding points may lie under `initial_motion`, in the
+  unit of the coordinates; a fifth of the RMS radius of the target by default; not below two
+  sampling distances
+- `sampling_distance(s)`, in `np_source`: the sampling distance of the coarser mesh; the larger one of the median
+edge lengths by default
+- `tolerance(t)`, in `np_source`: the step, in sampling distances, that ends the iteration; 0.05 by default, a
+fraction of what range scanners resolve
+- `number_of_iterations(n)`, in `np_source`: the largest number of iterations; 50 by default
+
+\return the refined motion, which maps `source` into the frame of `target`, with what tells how good it is
+
+\throws std::invalid_argument if a mesh has no face with an area, a face that is not a triangle or a coordinate that
+is not finite, if `initial_motion` is not rigid, or if a parameter is not a positive number
+
+For \f$ n \f$ vertices, \f$ O(n \log n) \f$ an iteration.
+*/
 template <class ConcurrencyTag = Sequential_tag, class SourceGraph, class TargetGraph, class Kernel,
           class NamedParameters1 = parameters::Default_named_parameters,
           class NamedParameters2 = parameters::Default_named_parameters>

@@ -99,32 +99,32 @@ using Kernel_of_range =
 } // namespace internal
 
 /*!
- * \ingroup PkgCrudeRegistrationRef
- *
- * Computes the rigid motion that maps `source` onto `target` in the least squares sense: the \f$ (R, t) \f$, with
- * \f$ R \f$ a proper rotation, that minimises \f$ \sum_i w_i \, | R s_i + t - t_i |^2 \f$ over corresponding points
- * \f$ s_i \f$ of `source` and \f$ t_i \f$ of `target`.
- *
- * The rotation comes from a singular value decomposition (Kabsch 1976, Umeyama 1991 without scale). Point sets that are
- * mirror images of each other give the best proper rotation, never a reflection.
- *
- * \tparam PointRange a range with `const_iterator`, its value type a CGAL `Point_3`
- * \tparam WeightRange a range of numbers
- *
- * \param source the points to be moved
- * \param target their correspondences, in the same order, in the frame and the unit of the result
- * \param weights one non-negative weight a pair, of any scale
- *
- * \return the motion, which maps the frame of `source` to the frame of `target`; `std::nullopt` where the pairs do not
- * determine it: fewer than three pairs of positive weight, coincident or collinear points on either side, or mirror
- * images whose best rotation is not unique. A motion is held to be determined when the rounding of the coordinates
- * turns it by less than 1e-5; no other tolerance is involved, so that the unit does not matter.
- *
- * \throws std::invalid_argument if the ranges differ in length, or hold a coordinate that is not finite or a weight
- * that is not finite or negative
- *
- * Linear in the number of pairs.
- */
+\ingroup PkgCrudeRegistrationRef
+
+Computes the rigid motion that maps `source` onto `target` in the least squares sense: the \f$ (R, t) \f$, with
+\f$ R \f$ a proper rotation, that minimises \f$ \sum_i w_i \, | R s_i + t - t_i |^2 \f$ over corresponding points
+\f$ s_i \f$ of `source` and \f$ t_i \f$ of `target`.
+
+The rotation comes from a singular value decomposition (Kabsch 1976, Umeyama 1991 without scale). Point sets that are
+mirror images of each other give the best proper rotation, never a reflection.
+
+\tparam PointRange a range with `const_iterator`, its value type a CGAL `Point_3`
+\tparam WeightRange a range of numbers
+
+\param source the points to be moved
+\param target their correspondences, in the same order, in the frame and the unit of the result
+\param weights one non-negative weight a pair, of any scale
+
+\return the motion, which maps the frame of `source` to the frame of `target`; `std::nullopt` where the pairs do not
+determine it: fewer than three pairs of positive weight, coincident or collinear points on either side, or mirror
+images whose best rotation is not unique. A motion is held to be determined when the rounding of the coordinates
+turns it by less than 1e-5; no other tolerance is involved, so that the unit does not matter.
+
+\throws std::invalid_argument if the ranges differ in length, or hold a coordinate that is not finite or a weight
+that is not finite or negative
+
+Linear in the number of pairs.
+*/
 template <class PointRange, class WeightRange>
 std::optional<Aff_transformation_3<internal::Kernel_of_range<PointRange>>>
 rigid_motion(const PointRange& source, const PointRange& target, const WeightRange& weights)
@@ -146,10 +146,10 @@ rigid_motion(const PointRange& source, const PointRange& target, const WeightRan
 }
 
 /*!
- * \ingroup PkgCrudeRegistrationRef
- *
- * The same, with all weights equal.
- */
+\ingroup PkgCrudeRegistrationRef
+
+The same, with all weights equal.
+*/
 template <class PointRange>
 std::optional<Aff_transformation_3<internal::Kernel_of_range<PointRange>>> rigid_motion(const PointRange& source,
                                                                                         const PointRange& target)

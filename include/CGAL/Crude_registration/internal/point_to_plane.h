@@ -68,24 +68,24 @@ class Point_to_plane
 public:
   Point_to_plane(const std::vector<Vector>& points, const std::vector<Vector>& normals, const Target& target,
                  const Refinement_options& options)
-      : points_(points), normals_(normals), target_(target), options_(options), matches_(points.size())
+      : m_points(points), m_normals(normals), m_target(target), m_options(options), m_matches(points.size())
   {}
 
   Refinement operator()(const Rigid_motion& initial)
   {
     Refinement result;
     result.motion = initial;
-    const double s = options_.sampling_distance;
-    double reach = (std::max)(options_.reach, shortest_reach * s);
-    while (!result.is_converged && result.iterations < options_.maximum_number_of_iterations) {
+    const double s = m_options.sampling_distance;
+    double reach = (std::max)(m_options.reach, shortest_reach * s);
+    while (!result.is_converged && result.iterations < m_options.maximum_number_of_iterations) {
       find_matches(result.motion, reach);
-      if (used_.size() < fewest_matches) break;
+      if (m_used.size() < fewest_matches) break;
       weigh_matches();
       accumulate();
       const Rigid_motion step = solve();
       result.motion = step * result.motion;
       ++result.iterations;
-      result.is_converged = displacement(step) <= options_.tolerance * s;
+      result.is_converged = displacement(step) <= m_options.tolerance * s;
       reach = (std::max)(shortest_reach * s, (std::min)(reach, 4 * median_distance()));
     }
     evaluate(result);
@@ -120,13 +120,13 @@ private:
 
   void find_matches(const Rigid_motion& motion, double reach)
   {
-    CGAL::for_each<ConcurrencyTag>(matches_, [&](Match& match) {
-      const std::size_t i = std::size_t(&match - matches_.data());
+    CGAL::for_each<ConcurrencyTag>(m_matches, [&](Match& match) {
+      const std::size_t i = std::size_t(&match - m_matches.data());
       match.kind = Match::NONE;
-      match.source = motion(points_[i]);
+      match.source = motion(m_points[i]);
       Surface_point closest;
-      if (normals_[i].isZero() || !target_.closest(match.source, reach, closest)) return true;
-      const Vector normal = motion.rotation * normals_[i];
+      if (m_normals[i].isZero() || !m_target.closest(match.source, reach, closest)) return true;
+      const Vector normal = motion.rotation * m_normals[i];
       if (!(normal.dot(closest.normal) > smallest_normal_cosine)) return true;
       match.kind = closest.is_on_border ? Match::BORDER : Match::USED;
       match.target = closest.point;
@@ -135,18 +135,18 @@ private:
       match.residual = (match.target - match.source).dot(match.normal);
       return true;
     });
-    used_.clear();
-    for (std::size_t i = 0; i < matches_.size(); ++i)
-      if (matches_[i].kind == Match::USED) used_.push_back(i);
+    m_used.clear();
+    for (std::size_t i = 0; i < m_matches.size(); ++i)
+      if (m_matches[i].kind == Match::USED) m_used.push_back(i);
   }
 
   template <class Value>
   double median(const Value& value)
   {
-    scratch_.clear();
-    for (std::size_t i : used_) scratch_.push_back(value(matches_[i]));
-    const auto middle = scratch_.begin() + std::ptrdiff_t(scratch_.size() / 2);
-    std::nth_element(scratch_.begin(), middle, scratch_.end());
+    m_scratch.clear();
+    for (std::size_t i : m_used) m_scratch.push_back(value(m_matches[i]));
+    const auto middle = m_scratch.begin() + std::ptrdiff_t(m_scratch.size() / 2);
+    std::nth_element(m_scratch.begin(), middle, m_scratch.end());
     return *middle;
   }
 
@@ -159,9 +159,9 @@ private:
   void weigh_matches()
   {
     const double sigma = (std::max)(1.4826 * median([](const Match& m) { return std::abs(m.residual); }),
-                                    smallest_sigma * options_.sampling_distance);
-    for (std::size_t i : used_) {
-      Match& m = matches_[i];
+                                    smallest_sigma * m_options.sampling_distance);
+    for (std::size_t i : m_used) {
+      Match& m = m_matches[i];
       const double u = m.residual / (biweight_reach * sigma), v = 1 - u * u;
       m.weight = v > 0 ? v * v : 0;
     }
@@ -172,67 +172,70 @@ private:
   //   sum w ((p - q) . n + ((p' + q') / 2 x n) . a + n . t)^2 -> min
   // for a turn a of the source and a displacement t of its mean. It is Chen and Medioni's point-to-plane distance where
   // the surface is flat, and exact where it is curved evenly, so that fewer steps are needed. Rotations are measured by
-  // the displacement at the distance radius_, so that the six unknowns have one unit.
+  // the displacement at the distance m_radius, so that the six unknowns have one unit.
   void accumulate()
   {
-    total_weight_ = 0;
-    source_mean_ = target_mean_ = Vector::Zero();
-    const Vector source_origin = matches_[used_.front()].source, target_origin = matches_[used_.front()].target;
-    for (std::size_t i : used_) {
-      const Match& m = matches_[i];
-      total_weight_ += m.weight;
-      source_mean_ += m.weight * (m.source - source_origin);
-      target_mean_ += m.weight * (m.target - target_origin);
+    m_total_weight = 0;
+    m_source_mean = m_target_mean = Vector::Zero();
+    const Vector source_origin = m_matches[m_used.front()].source, target_origin = m_matches[m_used.front()].target;
+    for (std::size_t i : m_used) {
+      const Match& m = m_matches[i];
+      m_total_weight += m.weight;
+      m_source_mean += m.weight * (m.source - source_origin);
+      m_target_mean += m.weight * (m.target - target_origin);
     }
-    source_mean_ = source_origin + source_mean_ / total_weight_;
-    target_mean_ = target_origin + target_mean_ / total_weight_;
+    m_source_mean = source_origin + m_source_mean / m_total_weight;
+    m_target_mean = target_origin + m_target_mean / m_total_weight;
 
     double spread = 0;
-    for (std::size_t i : used_) spread += matches_[i].weight * (matches_[i].source - source_mean_).squaredNorm();
-    radius_ = std::sqrt(spread / total_weight_);
-    if (!(radius_ > 0)) radius_ = options_.sampling_distance;
+    for (std::size_t i : m_used) spread += m_matches[i].weight * (m_matches[i].source - m_source_mean).squaredNorm();
+    m_radius = std::sqrt(spread / m_total_weight);
+    if (!(m_radius > 0)) m_radius = m_options.sampling_distance;
 
-    normal_matrix_.setZero();
-    right_side_.setZero();
-    squared_residuals_ = 0;
-    for (std::size_t i : used_) {
-      const Match& m = matches_[i];
-      const Vector p = m.source - source_mean_, q = m.target - target_mean_;
+    m_normal_matrix.setZero();
+    m_right_side.setZero();
+    m_squared_residuals = 0;
+    for (std::size_t i : m_used) {
+      const Match& m = m_matches[i];
+      const Vector p = m.source - m_source_mean, q = m.target - m_target_mean;
       Vector_6 row;
-      row << (p + q).cross(m.normal) / (2 * radius_), m.normal;
-      normal_matrix_ += m.weight * row * row.transpose();
-      right_side_ += m.weight * m.residual * row;
-      squared_residuals_ += m.weight * m.residual * m.residual;
+      row << (p + q).cross(m.normal) / (2 * m_radius), m.normal;
+      m_normal_matrix += m.weight * row * row.transpose();
+      m_right_side += m.weight * m.residual * row;
+      m_squared_residuals += m.weight * m.residual * m.residual;
     }
   }
 
   // Variance of the residuals; that of surfaces sampled without noise stays above zero.
   double variance() const
   {
-    const double smallest = smallest_sigma * options_.sampling_distance;
-    return (std::max)(squared_residuals_ / total_weight_, smallest * smallest);
+    const double smallest = smallest_sigma * m_options.sampling_distance;
+    return (std::max)(m_squared_residuals / m_total_weight, smallest * smallest);
   }
 
   // The eigenvalue below which the standard deviation of a motion exceeds s.
-  double smallest_information() const { return variance() / (options_.sampling_distance * options_.sampling_distance); }
+  double smallest_information() const
+  {
+    return variance() / (m_options.sampling_distance * m_options.sampling_distance);
+  }
 
   // The step; it has no part along motions about which the matches say nothing.
   Rigid_motion solve() const
   {
-    const Eigen::SelfAdjointEigenSolver<Matrix_6> eigen(normal_matrix_);
+    const Eigen::SelfAdjointEigenSolver<Matrix_6> eigen(m_normal_matrix);
     Vector_6 x = Vector_6::Zero();
     for (int k = 0; k < 6; ++k)
       if (eigen.eigenvalues()[k] > smallest_information())
-        x += eigen.eigenvectors().col(k).dot(right_side_) / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
+        x += eigen.eigenvectors().col(k).dot(m_right_side) / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
 
     // Both sides turn by half the angle, of tangent |a| / 2, in opposite directions.
-    const Vector a = x.head<3>() / (2 * radius_), t = source_mean_ - target_mean_ + x.tail<3>();
+    const Vector a = x.head<3>() / (2 * m_radius), t = m_source_mean - m_target_mean + x.tail<3>();
     const double angle = std::atan(a.norm());
     const Matrix half =
         angle > 0 ? Eigen::AngleAxisd(angle, a.normalized()).toRotationMatrix() : Matrix(Matrix::Identity());
     Rigid_motion step;
     step.rotation = half * half;
-    step.translation = target_mean_ + std::cos(angle) * (half * t) - step.rotation * source_mean_;
+    step.translation = m_target_mean + std::cos(angle) * (half * t) - step.rotation * m_source_mean;
     return step;
   }
 
@@ -240,11 +243,11 @@ private:
   double displacement(const Rigid_motion& step) const
   {
     double sum = 0;
-    for (std::size_t i : used_) {
-      const Match& m = matches_[i];
+    for (std::size_t i : m_used) {
+      const Match& m = m_matches[i];
       sum += m.weight * (step(m.source) - m.source).squaredNorm();
     }
-    return std::sqrt(sum / total_weight_);
+    return std::sqrt(sum / m_total_weight);
   }
 
   // What the noise of the normals alone contributes to the normal equations. The variance of one component of one
@@ -255,9 +258,9 @@ private:
     const double variance = (std::max)(median([](const Match& m) { return m.normal_difference; }) / (8 * std::log(2.)),
                                        smallest_normal_sigma * smallest_normal_sigma / 2);
     Matrix_6 noise = Matrix_6::Zero();
-    for (std::size_t i : used_) {
-      const Match& m = matches_[i];
-      const Vector p = (m.source - source_mean_) / radius_;
+    for (std::size_t i : m_used) {
+      const Match& m = m_matches[i];
+      const Vector p = (m.source - m_source_mean) / m_radius;
       Eigen::Matrix<double, 6, 3> row_of_normal;
       row_of_normal << 0, -p.z(), p.y(), p.z(), 0, -p.x(), -p.y(), p.x(), 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
       const Matrix tangential = Matrix::Identity() - m.normal * m.normal.transpose();
@@ -268,37 +271,37 @@ private:
 
   void evaluate(Refinement& result)
   {
-    find_matches(result.motion, shortest_reach * options_.sampling_distance);
-    result.matches = used_.size();
+    find_matches(result.motion, shortest_reach * m_options.sampling_distance);
+    result.matches = m_used.size();
     std::size_t close = 0;
-    for (const Match& m : matches_)
+    for (const Match& m : m_matches)
       if (m.kind != Match::NONE) ++close;
-    if (close > 0) result.overlap = double(close) / double(points_.size());
-    if (used_.size() < fewest_matches) {
+    if (close > 0) result.overlap = double(close) / double(m_points.size());
+    if (m_used.size() < fewest_matches) {
       result.is_converged = false;
       result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
       for (int k = 0; k < 6; ++k) result.free_motions.push_back(Vector_6::Unit(k));
       return;
     }
     double sum = 0;
-    for (std::size_t i : used_) sum += matches_[i].residual * matches_[i].residual;
-    result.residual = std::sqrt(sum / double(used_.size()));
+    for (std::size_t i : m_used) sum += m_matches[i].residual * m_matches[i].residual;
+    result.residual = std::sqrt(sum / double(m_used.size()));
     weigh_matches();
     accumulate();
 
-    // From (radius_ w, displacement of the mean) to (w, displacement of the origin).
+    // From (m_radius w, displacement of the mean) to (w, displacement of the origin).
     Matrix_6 to_origin = Matrix_6::Zero();
-    const Vector c = target_mean_;
-    to_origin.topLeftCorner<3, 3>() = Matrix::Identity() / radius_;
+    const Vector c = m_target_mean;
+    to_origin.topLeftCorner<3, 3>() = Matrix::Identity() / m_radius;
     to_origin.bottomRightCorner<3, 3>() = Matrix::Identity();
     to_origin.bottomLeftCorner<3, 3>() << 0, -c.z(), c.y(), c.z(), 0, -c.x(), -c.y(), c.x(), 0;
-    to_origin.bottomLeftCorner<3, 3>() /= radius_;
+    to_origin.bottomLeftCorner<3, 3>() /= m_radius;
 
     // A motion is free where the information about it is less than twice what noise of the normals makes up, or where
     // its standard deviation exceeds s. The eigenvectors v_k of A v = mu N v have v_k^T N v_k = 1 and, with them,
     // A^-1 = sum_k v_k v_k^T / mu_k.
     const Matrix_6 noise = 2 * noise_matrix() + smallest_information() * Matrix_6::Identity();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix_6> eigen(normal_matrix_, noise);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix_6> eigen(m_normal_matrix, noise);
     for (int k = 0; k < 6; ++k) {
       const double information = eigen.eigenvalues()[k];
       const Vector_6 v = to_origin * eigen.eigenvectors().col(k);
@@ -307,24 +310,24 @@ private:
       else {
         // As uncertain as the matched surface is large.
         result.free_motions.push_back(v / length);
-        result.covariance += radius_ * radius_ / (length * length) * v * v.transpose();
+        result.covariance += m_radius * m_radius / (length * length) * v * v.transpose();
       }
     }
   }
 
-  const std::vector<Vector>& points_;
-  const std::vector<Vector>& normals_;
-  const Target& target_;
-  const Refinement_options options_;
+  const std::vector<Vector>& m_points;
+  const std::vector<Vector>& m_normals;
+  const Target& m_target;
+  const Refinement_options m_options;
 
-  std::vector<Match> matches_;    // slot i: source point i
-  std::vector<std::size_t> used_; // indices of the matches of kind USED
-  std::vector<double> scratch_;
+  std::vector<Match> m_matches;    // slot i: source point i
+  std::vector<std::size_t> m_used; // indices of the matches of kind USED
+  std::vector<double> m_scratch;
 
-  Vector source_mean_, target_mean_;
-  double total_weight_ = 0, radius_ = 0, squared_residuals_ = 0;
-  Matrix_6 normal_matrix_;
-  Vector_6 right_side_;
+  Vector m_source_mean, m_target_mean;
+  double m_total_weight = 0, m_radius = 0, m_squared_residuals = 0;
+  Matrix_6 m_normal_matrix;
+  Vector_6 m_right_side;
 };
 
 } // namespace internal

@@ -1,0 +1,172 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
+#define CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
+
+#include <CGAL/Crude_registration/internal/Rigid_motion.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/assertions.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+What came out of a registration.
+*/
+enum Registration_status
+{
+  REGISTERED,    ///< one motion explains the scans, and it is certain
+  AMBIGUOUS,     ///< several distinct motions, or a family of motions, explain the scans about as well
+  NOT_REGISTERED ///< no motion found that can be believed
+};
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+Writes `registered`, `ambiguous` or `not_registered`.
+*/
+inline std::ostream& operator<<(std::ostream& out, Registration_status status)
+{
+  switch (status) {
+  case REGISTERED:
+    return out << "registered";
+  case AMBIGUOUS:
+    return out << "ambiguous";
+  case NOT_REGISTERED:
+    break;
+  }
+  return out << "not_registered";
+}
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+The answer of a registration of a *source* and a *target*: a value, which refers to neither.
+
+Every transformation in it is rigid and maps the source into the frame of the target: with `t = transformation()`,
+the point `t.transform(p)` of the moved source lies on the target where the scans overlap. A registration that fails
+says so in status(), with the reason in reason(); it does not throw.
+
+\tparam Kernel_ the kernel of the transformations
+*/
+template <class Kernel_ = Exact_predicates_inexact_constructions_kernel>
+class Registration_result
+{
+public:
+  /// The kernel.
+  using Kernel = Kernel_;
+
+  /// The type of the transformations.
+  using Transformation = Aff_transformation_3<Kernel>;
+
+  /// A motion that was considered, with its score: the larger, the better; comparable within one result only.
+  struct Scored_motion
+  {
+    Transformation transformation;
+    double score;
+  };
+
+  /// What a stage of the registration did: how many items it worked on, and how long it took.
+  struct Stage
+  {
+    std::string name;
+    std::size_t count;
+    double seconds;
+  };
+
+  /// The parts a result is made of; each is explained at the member function of its name.
+  struct Parts
+  {
+    Registration_status status = NOT_REGISTERED;
+    std::string reason;
+    Transformation transformation = Transformation(IDENTITY);
+    Transformation crude_transformation = Transformation(IDENTITY);
+    double confidence = 0;
+    double overlap = 0;
+    double residual = 0;
+    double free_space_violations = 0;
+    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    std::vector<std::string> free_motions;
+    std::vector<Scored_motion> runners_up;
+    std::vector<Stage> statistics;
+  };
+
+  /// A result of nothing: not registered.
+  Registration_result() = default;
+
+  /// A result made of its parts.
+  /// \pre `parts.confidence` is in [0,1]
+  explicit Registration_result(Parts parts) : m_parts(std::move(parts))
+  {
+    CGAL_precondition(m_parts.confidence >= 0 && m_parts.confidence <= 1);
+  }
+
+  /// Whether the scans are registered.
+  Registration_status status() const { return m_parts.status; }
+
+  /// Why the status is not `REGISTERED`, as a sentence; empty if it is.
+  const std::string& reason() const { return m_parts.reason; }
+
+  /// The motion that maps the source into the frame of the target; the best of several if `AMBIGUOUS`, the identity if
+  /// `NOT_REGISTERED`.
+  const Transformation& transformation() const { return m_parts.transformation; }
+
+  /// The motion that maps the target into the frame of the source.
+  Transformation inverse_transformation() const
+  {
+    return internal::to_aff_transformation<Kernel>(internal::to_rigid_motion(m_parts.transformation).inverse());
+  }
+
+  /// transformation() before its refinement: what the correspondences of the simplified scans gave.
+  const Transformation& crude_transformation() const { return m_parts.crude_transformation; }
+
+  /// The probability, in [0,1], that transformation() is right.
+  double confidence() const { return m_parts.confidence; }
+
+  /// The share of the source's surface that has the target close by, with its normal, under transformation().
+  double overlap() const { return m_parts.overlap; }
+
+  /// The RMS distance between the scans where they overlap, along the normals, in sampling distances.
+  double residual() const { return m_parts.residual; }
+
+  /// The share of either scan's surface that lies, under transformation(), where the other one's sensor saw nothing.
+  double free_space_violations() const { return m_parts.free_space_violations; }
+
+  /// The covariance of the small motion \f$ x \rightarrow x + \omega \times x + v \f$ that follows transformation(), in
+  /// the order \f$ (\omega_x, \omega_y, \omega_z, v_x, v_y, v_z) \f$: radians about the axes through the origin of the
+  /// target's frame, and the displacement in the unit of its coordinates.
+  const Eigen::Matrix<double, 6, 6>& covariance() const { return m_parts.covariance; }
+
+  /// The names of the motions that the overlap leaves free, such as a turn about an axis.
+  const std::vector<std::string>& free_motions() const { return m_parts.free_motions; }
+
+  /// The best motions that are distinct from transformation() and from each other, best first.
+  const std::vector<Scored_motion>& runners_up() const { return m_parts.runners_up; }
+
+  /// What each stage did, in their order.
+  const std::vector<Stage>& statistics() const { return m_parts.statistics; }
+
+private:
+  Parts m_parts;
+};
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
