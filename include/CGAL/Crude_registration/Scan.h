@@ -1,0 +1,155 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_SCAN_H
+#define CGAL_CRUDE_REGISTRATION_SCAN_H
+
+#include <CGAL/Crude_registration/Range_image.h>
+#include <CGAL/Crude_registration/Sensor.h>
+#include <CGAL/Crude_registration/estimate_sensor.h>
+#include <CGAL/Crude_registration/internal/Flat_triangulation.h>
+#include <CGAL/Crude_registration/internal/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+#include <CGAL/Crude_registration/named_parameters.h>
+#include <CGAL/Crude_registration/triangulate_points.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief A scan prepared for registration: what is computed once and used by every pair the scan takes part in.
+
+The scan's surface at two resolutions, with normals and curvatures, and, where the sensor is known, the free space in
+front of it. Nothing of the input is referred to. All lengths that the class returns are in the unit of the input, all
+motions are between frames of inputs.
+
+\tparam Kernel_ a model of `Kernel`
+
+Complexity: linear in the size of the input; the size of the result is bounded (some megabytes).
+*/
+template <class Kernel_ = CGAL::Exact_predicates_inexact_constructions_kernel>
+class Scan
+{
+public:
+  typedef Kernel_ Kernel;
+  typedef typename Kernel::Point_3 Point_3;
+
+  /*!
+  prepares a triangle mesh.
+
+  \tparam FaceGraph a model of `FaceListGraph`
+  \param mesh the surface, faces counterclockwise seen from outside (from the sensor)
+  \param np optional named parameters: `vertex_point_map`; `viewpoint` (a point) or `viewing_direction` (a vector), the
+         sensor in the frame of the mesh. Without them the free space is taken along the mean normal where nearly the
+         whole surface faces that way, and nowhere otherwise.
+  \throws std::invalid_argument if the mesh has no face of positive area, a face that is not a triangle, a coordinate
+         that is not finite, or both `viewpoint` and `viewing_direction` are given.
+  */
+  template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
+  static Scan from_mesh(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values(),
+                        const std::string& name = "mesh")
+  {
+    return Scan(internal::to_flat_mesh(mesh, np, "Scan", name), given_sensor(np), name);
+  }
+
+  /*!
+  prepares a range image: triangulates it (see `triangulate_range_image()`), with the sensor of the image, of the named
+  parameters `viewpoint` or `viewing_direction`, or the one that the grid tells (see `estimate_sensor()`), in this
+  order.
+
+  \throws std::invalid_argument if no face is left.
+  */
+  template <class NamedParameters = parameters::Default_named_parameters>
+  static Scan from_range_image(const Range_image<Kernel>& image,
+                               const NamedParameters& np = parameters::default_values(),
+                               const std::string& name = "image")
+  {
+    internal::Flat_range_image flat(image);
+    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = given_sensor(np);
+    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::Sensor_estimation(flat)();
+    return Scan(internal::flat_triangulation(flat, internal::sampling(flat)), flat.sensor, name);
+  }
+
+  /*!
+  prepares points without faces (see `triangulate_points()`).
+
+  \param points the samples
+  \param np optional named parameters: `viewpoint` or `viewing_direction`, the sensor in the frame of the points
+  \throws std::invalid_argument if a coordinate is not finite or no face is left.
+  */
+  template <class NamedParameters = parameters::Default_named_parameters>
+  static Scan from_points(const std::vector<Point_3>& points,
+                          const NamedParameters& np = parameters::default_values(), const std::string& name = "points")
+  {
+    std::vector<internal::Vector> flat;
+    flat.reserve(points.size());
+    for (const Point_3& p : points) {
+      flat.push_back(internal::to_vector(p));
+      if (!flat.back().allFinite())
+        throw std::invalid_argument("Scan: point " + std::to_string(flat.size() - 1) + " of " + name +
+                                    " has a coordinate that is not finite");
+    }
+    const internal::Flat_sensor sensor = given_sensor(np);
+    return Scan(internal::flat_triangulation(flat, sensor, 5), sensor, name);
+  }
+
+  /// the number of samples that take part.
+  std::size_t number_of_samples() const { return m_prepared.number_of_samples; }
+
+  /// the root of the area per sample.
+  double spacing() const { return m_prepared.spacing; }
+
+  /// the mean edge length \f$ M \f$ of the scan's box in a frame of the scan's own.
+  double extent() const { return m_prepared.extent; }
+
+  /// whether free space is known, from the sensor or along the mean normal.
+  bool has_free_space() const { return m_prepared.depths.is_known(); }
+
+  /// \cond SKIP_IN_MANUAL
+  const internal::Prepared_scan& prepared() const { return m_prepared; }
+  /// \endcond
+
+private:
+  Scan(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor, const std::string& name)
+      : m_prepared(internal::prepare_scan(mesh, sensor))
+  {
+    if (m_prepared.number_of_samples == 0)
+      throw std::invalid_argument("Scan: " + name + " has no surface: no face of positive area that the sensor can see");
+  }
+
+  template <class NamedParameters>
+  static internal::Flat_sensor given_sensor([[maybe_unused]] const NamedParameters& np)
+  {
+    constexpr bool has_viewpoint = internal::is_given<NamedParameters, internal_np::viewpoint_t>;
+    constexpr bool has_direction = internal::is_given<NamedParameters, internal_np::viewing_direction_t>;
+    if constexpr (has_viewpoint && has_direction)
+      throw std::invalid_argument("Scan: both viewpoint and viewing_direction are given");
+    else if constexpr (has_viewpoint)
+      return internal::to_flat_sensor(
+          Sensor<Kernel>::perspective(internal::parameter(np, internal_np::viewpoint, Point_3(CGAL::ORIGIN))));
+    else if constexpr (has_direction)
+      return internal::to_flat_sensor(Sensor<Kernel>::orthographic(
+          internal::parameter(np, internal_np::viewing_direction, typename Kernel::Vector_3(CGAL::NULL_VECTOR))));
+    else
+      return internal::Flat_sensor();
+  }
+
+  internal::Prepared_scan m_prepared;
+};
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_SCAN_H

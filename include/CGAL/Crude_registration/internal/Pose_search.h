@@ -1,0 +1,529 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_POSE_SEARCH_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_POSE_SEARCH_H
+
+#include <CGAL/Crude_registration/internal/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/Surfel_pair_index.h>
+
+#include <array>
+#include <numeric>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Target from source, in the own frames of the scans.
+struct Pose
+{
+  Matrix_f rotation = Matrix_f::Identity();
+  Vector_f translation = Vector_f::Zero();
+
+  Vector_f operator()(const Vector_f& p) const { return rotation * p + translation; }
+  Pose inverse() const
+  {
+    Pose i;
+    i.rotation = rotation.transpose();
+    i.translation = -(i.rotation * translation);
+    return i;
+  }
+};
+
+// Fixed mixing of numbers (splitmix64): the search's only source of choice, the same everywhere.
+inline std::uint64_t mixed(std::uint64_t x)
+{
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// 0 .. n-1 in a fixed order without pattern.
+inline std::vector<std::int32_t> shuffled(std::size_t n, std::uint64_t seed)
+{
+  std::vector<std::int32_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[mixed(seed + i) % i]);
+  return order;
+}
+
+// One step of point-to-plane least squares (Chen and Medioni 1991) of some surfels of the source against the target's
+// nearest ones. Returns the number of correspondences; the pose is left as it is where they are fewer than six.
+struct Step
+{
+  float reach;          // largest distance to the plane
+  float minimal_cosine; // of the normals
+};
+
+template <class Indices>
+int refine_step(const Surfel_level& source, const Indices& indices, const Surfel_level& target, const Step& step,
+                Pose& pose)
+{
+  // The unknowns are a rotation about the middle of the correspondences, in units of their spread, and a translation.
+  constexpr std::size_t most = 4096;
+  thread_local std::vector<std::array<float, 7>> rows; // p, n, residual
+  rows.clear();
+  Vector_f middle = Vector_f::Zero();
+  for (const auto i : indices) {
+    const Surfel& s = source.surfels[std::size_t(i)];
+    const Vector_f p = pose(s.position);
+    const int j = target.field.nearest(p);
+    if (j < 0) continue;
+    const Surfel& t = target.surfels[std::size_t(j)];
+    const Vector_f e = p - t.position;
+    const float r = t.normal.dot(e);
+    if (std::abs(r) > step.reach || (e - r * t.normal).squaredNorm() > 4 * step.reach * step.reach) continue;
+    if ((pose.rotation * s.normal).dot(t.normal) < step.minimal_cosine) continue;
+    rows.push_back({p[0], p[1], p[2], t.normal[0], t.normal[1], t.normal[2], r});
+    middle += p;
+    if (rows.size() == most) break;
+  }
+  if (rows.size() < 6) return int(rows.size());
+  middle /= float(rows.size());
+  float spread = 0;
+  for (const auto& r : rows) spread += (Vector_f(r[0], r[1], r[2]) - middle).squaredNorm();
+  const float unit = std::sqrt(spread / float(rows.size()));
+  if (!(unit > 0)) return 0;
+
+  Eigen::Matrix<float, 6, 6> left = Eigen::Matrix<float, 6, 6>::Zero();
+  Eigen::Matrix<float, 6, 1> right = Eigen::Matrix<float, 6, 1>::Zero();
+  const float inverse_unit = 1 / unit, inverse_reach2 = 1 / (step.reach * step.reach);
+  for (const auto& r : rows) {
+    const Vector_f n(r[3], r[4], r[5]);
+    const Vector_f c = ((Vector_f(r[0], r[1], r[2]) - middle) * inverse_unit).cross(n);
+    float w = 1 - r[6] * r[6] * inverse_reach2; // Tukey's biweight
+    w *= w;
+    const float v[6] = {c[0], c[1], c[2], n[0], n[1], n[2]};
+    for (int i = 0; i < 6; ++i) {
+      const float wi = w * v[i];
+      for (int j = i; j < 6; ++j) left(j, i) += wi * v[j];
+      right[i] -= wi * r[6];
+    }
+  }
+  // What the correspondences do not determine stays: a little of the identity.
+  left.diagonal().array() += 1e-3f * float(rows.size()) / 6;
+  const Eigen::Matrix<float, 6, 1> x = left.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  const Vector_f w = x.head<3>() * inverse_unit, t = x.tail<3>();
+  const float angle = w.norm();
+  const Matrix_f r = angle > 1e-7f ? Eigen::AngleAxisf(angle, w / angle).toRotationMatrix() : Matrix_f::Identity();
+  pose.translation = r * (pose.translation - middle) + middle + t;
+  pose.rotation = r * pose.rotation;
+  return int(rows.size());
+}
+
+// How a pose explains the scans.
+struct Agreement
+{
+  float overlap = 0;    // share of the source's surfels with a target surfel near and facing the same way
+  float violations = 0; // surfels of either scan in the free space of the other, as a share of the source's
+};
+
+template <class Indices>
+Agreement agreement(const Prepared_scan& source, const Surfel_level& source_level, const Indices& source_indices,
+                    const Prepared_scan& target, const Surfel_level& target_level, const Indices& target_indices,
+                    const Pose& pose, float distance, float minimal_cosine, float free_depth)
+{
+  int overlap = 0, violations = 0;
+  for (const auto i : source_indices) {
+    const Surfel& s = source_level.surfels[std::size_t(i)];
+    const Vector_f p = pose(s.position);
+    const int j = target_level.field.nearest(p);
+    if (j >= 0) {
+      const Surfel& t = target_level.surfels[std::size_t(j)];
+      if (std::abs(t.normal.dot(p - t.position)) <= distance && (pose.rotation * s.normal).dot(t.normal) >= minimal_cosine)
+        ++overlap;
+    }
+    if (target.depths.is_known() && target.depths.in_front(p) > free_depth) ++violations;
+  }
+  if (source.depths.is_known()) {
+    const Pose back = pose.inverse();
+    for (const auto i : target_indices)
+      if (source.depths.in_front(back(target_level.surfels[std::size_t(i)].position)) > free_depth) ++violations;
+  }
+  Agreement a;
+  const float n = float(source_indices.size());
+  a.overlap = float(overlap) / n;
+  a.violations = float(violations) / n;
+  return a;
+}
+
+// What a search tells on its way: every candidate at the stages it reaches. For measurements.
+struct No_observer
+{
+  enum Stage
+  {
+    HIT,
+    CHECKED,
+    SUPPORTED,
+    SCORED,
+    KEPT,
+    REFINED
+  };
+  void operator()(Stage, const Pose&) {}
+};
+
+struct Candidate
+{
+  Pose pose;
+  float score;
+};
+
+// One round of the search.
+struct Search_round
+{
+  std::vector<float> scales; // lengths of the first axis of a trihedron, in shares of M, the largest first
+  int origins;               // vertices V of the source
+  int pairs;                 // vertices v1 for each of them and each scale
+  std::size_t looks;         // at most that many pairs (C, c1) of the target are looked at
+  int curvature_tolerance;   // in 1/128 of the inverse spacing
+  std::size_t kept;          // distinct candidates that are refined
+  std::size_t judged;        // those of them that are looked at closely
+};
+
+struct Search_parameters
+{
+  std::vector<Search_round> rounds = {{{0.16f}, 300, 5, 80000, 14, 60, 8},
+                                      {{0.16f, 0.1f}, 800, 5, 500000, 14, 200, 12},
+                                      {{0.25f, 0.16f, 0.1f, 0.06f}, 2000, 5, 4000000, 20, 400, 24}};
+  float source_half_width = 0.3f; // of the lengths, in spacings
+  float target_half_width = 0.7f;
+  float distance = 0.8f; // of a witness to the plane of its counterpart, in spacings
+  float minimal_cosine = 0.75f;
+  int witnesses = 16, witnesses_needed = 9;
+  float witness_reach = 0.16f; // of the witnesses from the middle of the pair, in shares of M
+};
+
+struct Search_counts
+{
+  std::size_t looks = 0, hits = 0, candidates = 0, refined = 0, judged = 0;
+};
+
+// A pose after refinement, looked at closely.
+struct Judged_pose
+{
+  Pose pose;
+  float tight = 0;      // share of the source's surfels on the target, to the scans' noise
+  float violations = 0; // share of the surfels in free space
+  float score() const { return tight - 2 * violations; }
+};
+
+// The search for the motion of a source to a target: trihedra of the source (V, v1, v2, v3) looked up in the target.
+// V and v1 with their normals and curvatures find (C, c1) in the index of surfel pairs (the sphere of section 6, and the
+// turn on the circle, which the normals give); v2 and v3, on either side of the line, have to find a counterpart where
+// the motion takes them (the fourth vertex), and so have most of some further witnesses around. What is left is scored
+// on the whole scan, with free space, and the best distinct motions are refined and judged.
+template <class Observer = No_observer>
+class Pose_search
+{
+public:
+  Pose_search(const Prepared_scan& source, const Prepared_scan& target, const Search_parameters& parameters = {},
+              Observer observer = Observer())
+      : m_source(source), m_target(target), m_parameters(parameters), m_observer(observer)
+  {
+    m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
+    m_extent = float((std::min)(source.extent, target.extent));
+    std::vector<Vector> points;
+    points.reserve(source.coarse.surfels.size());
+    for (const Surfel& s : source.coarse.surfels) points.push_back(s.position.cast<double>());
+    m_grid = Point_grid(points, double(2 * m_spacing));
+    for (const std::int32_t v : shuffled(source.coarse.surfels.size(), 1))
+      if (!source.coarse.borders[std::size_t(v)]) m_origins.push_back(v);
+    m_source_probes = probes(source.coarse, 600);
+    m_target_probes = probes(target.coarse, 200);
+    m_fine_source_probes = probes(source.fine, 2500);
+    m_fine_target_probes = probes(target.fine, 2500);
+  }
+
+  // The distinct poses, best first, once one of them is certain or all rounds are done.
+  // \pre Both scans have at least four surfels.
+  std::vector<Judged_pose> operator()()
+  {
+    std::vector<Judged_pose> judged;
+    for (const Search_round& round : m_parameters.rounds) {
+      for (const Candidate& c : refined(next_round(round), round.judged)) add_distinct(judge(c.pose), judged);
+      if (is_certain(judged)) break;
+    }
+    return judged;
+  }
+
+  const Search_counts& counts() const { return m_counts; }
+
+  // Surfels of the source for the final refinement.
+  std::vector<std::int32_t> fine_source_probes(std::size_t n) const { return probes(m_source.fine, n); }
+
+  // Twice what any wrong pose was seen to reach, and far ahead of every other pose.
+  static bool is_certain(const std::vector<Judged_pose>& judged)
+  {
+    if (judged.empty() || judged.front().score() < 0.2f) return false;
+    return judged.size() == 1 || judged[1].score() < 0.4f * judged.front().score();
+  }
+
+  // The distinct candidates of the next round, best first.
+  std::vector<Candidate> next_round(const Search_round& round)
+  {
+    std::vector<Candidate> candidates;
+    const std::vector<Source_pair> pairs = choose_pairs(round);
+    std::vector<std::size_t> looks(round.scales.size(), round.looks / round.scales.size());
+    for (const Source_pair& p : pairs) {
+      if (looks[p.scale] < p.count) continue;
+      looks[p.scale] -= p.count;
+      match(p, round, candidates);
+    }
+    m_counts.candidates += candidates.size();
+    best_by_score(candidates, 40, round.kept * 8);
+    for (const Candidate& c : candidates) m_observer(No_observer::SCORED, c.pose);
+    best_by_score(candidates, 200, candidates.size());
+    std::vector<Candidate> kept;
+    for (const Candidate& c : candidates) {
+      if (kept.size() == round.kept) break;
+      if (std::none_of(kept.begin(), kept.end(), [&](const Candidate& k) { return are_close(c.pose, k.pose); }))
+        kept.push_back(c);
+    }
+    for (const Candidate& c : kept) m_observer(No_observer::KEPT, c.pose);
+    return kept;
+  }
+
+  // The candidates after some steps of refinement, best first, no more than `number` of them.
+  std::vector<Candidate> refined(std::vector<Candidate> candidates, std::size_t number)
+  {
+    m_counts.refined += candidates.size();
+    const auto refine = [&](std::size_t probes, std::initializer_list<float> reaches) {
+      const auto indices = first(m_source_probes, probes);
+      for (Candidate& c : candidates) {
+        for (float reach : reaches)
+          if (refine_step(m_source.coarse, indices, m_target.coarse, {reach * m_spacing, 0.7f}, c.pose) < 6) break;
+        const Agreement a = agreement(m_source, m_source.coarse, indices, m_target, m_target.coarse, m_target_probes,
+                                      c.pose, 0.35f * m_spacing, 0.85f, 1.2f * m_spacing);
+        c.score = a.overlap - 1.5f * a.violations;
+      }
+      sort_by_score(candidates);
+    };
+    refine(200, {1.5f, 1.5f, 1.f});
+    if (candidates.size() > 4 * number) candidates.resize(4 * number);
+    refine(600, {1.f, 0.5f, 0.5f, 0.5f});
+    std::vector<Candidate> best;
+    for (const Candidate& c : candidates) {
+      if (best.size() == number) break;
+      if (std::none_of(best.begin(), best.end(), [&](const Candidate& k) { return are_close(c.pose, k.pose); }))
+        best.push_back(c);
+    }
+    for (const Candidate& c : best) m_observer(No_observer::REFINED, c.pose);
+    return best;
+  }
+
+  Judged_pose judge(Pose pose)
+  {
+    ++m_counts.judged;
+    const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
+    for (float reach : {2.f, 2.f, 2.f, 1.25f, 1.25f, 0.75f})
+      if (refine_step(m_source.fine, m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
+    const Agreement a = agreement(m_source, m_source.fine, m_fine_source_probes, m_target, m_target.fine,
+                                  m_fine_target_probes, pose, 0.35f * spacing, 0.906f,
+                                  3 * float((std::max)(m_source.spacing, m_target.spacing)));
+    return {pose, a.overlap, a.violations};
+  }
+
+private:
+  struct Source_pair
+  {
+    std::int32_t first, second;
+    Pair_angles angles;
+    std::uint32_t count; // of target pairs to look at
+    std::uint8_t scale;
+  };
+
+  static std::vector<std::int32_t> probes(const Surfel_level& level, std::size_t n)
+  {
+    return first(shuffled(level.surfels.size(), 2), n);
+  }
+
+  static std::vector<std::int32_t> first(std::vector<std::int32_t> indices, std::size_t n)
+  {
+    if (indices.size() > n) indices.resize(n);
+    return indices;
+  }
+
+  static void sort_by_score(std::vector<Candidate>& candidates)
+  {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  }
+
+  const Surfel_pair_index& index_of_scale(float scale)
+  {
+    for (const auto& i : m_indices)
+      if (i.first == scale) return i.second;
+    m_indices.emplace_back(scale, Surfel_pair_index(m_target.coarse.surfels, scale * m_extent,
+                                                    m_parameters.target_half_width * m_spacing));
+    return m_indices.back().second;
+  }
+
+  // Poses that refinement will most likely make one: within some spacings and degrees.
+  bool are_close(const Pose& a, const Pose& b) const
+  {
+    const float trace = (a.rotation.array() * b.rotation.array()).sum();
+    return trace > 2.989f && (a.translation - b.translation).squaredNorm() < 2.25f * m_spacing * m_spacing;
+  }
+
+  // Keeps `judged` sorted and its poses more than 10 degrees or a twentieth of the extent apart.
+  void add_distinct(const Judged_pose& pose, std::vector<Judged_pose>& judged) const
+  {
+    const auto same = [&](const Judged_pose& other) {
+      const float trace = (pose.pose.rotation.array() * other.pose.rotation.array()).sum();
+      return trace > 1 + 2 * 0.985f && (pose.pose.translation - other.pose.translation).norm() < 0.05f * m_extent;
+    };
+    for (const Judged_pose& other : judged)
+      if (other.score() >= pose.score() && same(other)) return;
+    judged.erase(std::remove_if(judged.begin(), judged.end(), same), judged.end());
+    judged.insert(std::find_if(judged.begin(), judged.end(),
+                               [&](const Judged_pose& other) { return other.score() < pose.score(); }),
+                  pose);
+  }
+
+  // Scores the candidates by that many probes of either scan and leaves the best, best first.
+  void best_by_score(std::vector<Candidate>& candidates, std::size_t probes, std::size_t left) const
+  {
+    const auto source_probes = first(m_source_probes, probes), target_probes = first(m_target_probes, probes);
+    for (Candidate& c : candidates) {
+      const Agreement a = agreement(m_source, m_source.coarse, source_probes, m_target, m_target.coarse, target_probes,
+                                    c.pose, m_parameters.distance * m_spacing, m_parameters.minimal_cosine,
+                                    1.2f * m_spacing);
+      c.score = a.overlap - 1.5f * a.violations;
+    }
+    sort_by_score(candidates);
+    if (candidates.size() > left) candidates.resize(left);
+  }
+
+  // Pairs (V, v1) of the source for the next origins, the rarest in the target first: they say the most for each look.
+  std::vector<Source_pair> choose_pairs(const Search_round& round)
+  {
+    std::vector<Source_pair> pairs;
+    std::vector<std::vector<std::int32_t>> shells(round.scales.size());
+    const float width = m_parameters.source_half_width * m_spacing;
+    const float longest = round.scales.front() * m_extent + width;
+    for (float s : round.scales) index_of_scale(s);
+    for (int o = 0; o < round.origins && m_next_origin < m_origins.size(); ++o, ++m_next_origin) {
+      const std::int32_t v = m_origins[m_next_origin];
+      const Surfel& origin = m_source.coarse.surfels[std::size_t(v)];
+      for (auto& s : shells) s.clear();
+      m_grid.for_each_within(origin.position.cast<double>(), double(longest), [&](std::int32_t j, double d2) {
+        if (m_source.coarse.borders[std::size_t(j)]) return;
+        const float d = std::sqrt(float(d2));
+        for (std::size_t k = 0; k < shells.size(); ++k)
+          if (std::abs(d - round.scales[k] * m_extent) <= width) shells[k].push_back(j);
+      });
+      for (std::size_t k = 0; k < shells.size(); ++k) {
+        const Surfel_pair_index& index = index_of_scale(round.scales[k]);
+        for (int n = 0; n < round.pairs && !shells[k].empty(); ++n) {
+          const std::size_t r = mixed(std::uint64_t(v) * 64 + std::uint64_t(n)) % shells[k].size();
+          Source_pair p;
+          p.first = v;
+          p.second = shells[k][r];
+          shells[k][r] = shells[k].back();
+          shells[k].pop_back();
+          p.scale = std::uint8_t(k);
+          if (!pair_angles(origin, m_source.coarse.surfels[std::size_t(p.second)], p.angles)) continue;
+          p.count = std::uint32_t(index.count(p.angles));
+          if (p.count > 0) pairs.push_back(p);
+        }
+      }
+    }
+    if (m_next_origin == m_origins.size()) m_next_origin = 0;
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Source_pair& a, const Source_pair& b) { return a.count < b.count; });
+    return pairs;
+  }
+
+  bool has_counterpart(const Surfel& s, const Pose& pose) const
+  {
+    const Vector_f p = pose(s.position);
+    const int j = m_target.coarse.field.nearest(p);
+    if (j < 0) return false;
+    const Surfel& t = m_target.coarse.surfels[std::size_t(j)];
+    return std::abs(t.normal.dot(p - t.position)) <= m_parameters.distance * m_spacing &&
+           (pose.rotation * s.normal).dot(t.normal) >= m_parameters.minimal_cosine;
+  }
+
+  // Surfels around the pair. The first two are v2 and v3: furthest from the line through V and v1, on either side.
+  bool choose_witnesses(const Source_pair& p, std::vector<Surfel>& witnesses) const
+  {
+    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)], &b = m_source.coarse.surfels[std::size_t(p.second)];
+    std::vector<std::int32_t> around;
+    const Vector_f middle = 0.5f * (a.position + b.position);
+    const float reach = (std::max)(m_parameters.witness_reach * m_extent, 4 * m_spacing);
+    m_grid.for_each_within(middle.cast<double>(), double(reach), [&](std::int32_t j, double) {
+      if (!m_source.coarse.borders[std::size_t(j)]) around.push_back(j);
+    });
+    if (around.size() < 10) return false;
+    const std::uint64_t seed = std::uint64_t(p.first) << 32 | std::uint64_t(p.second) << 8;
+    witnesses.clear();
+    for (int w = 0; w < m_parameters.witnesses; ++w)
+      witnesses.push_back(m_source.coarse.surfels[std::size_t(around[mixed(seed + std::uint64_t(w)) % around.size()])]);
+    const Vector_f d = (b.position - a.position).normalized();
+    const auto arm = [&](const Surfel& s) -> Vector_f {
+      const Vector_f e = s.position - a.position;
+      return e - e.dot(d) * d;
+    };
+    std::iter_swap(witnesses.begin(), std::max_element(witnesses.begin(), witnesses.end(), [&](const Surfel& x, const Surfel& y) {
+                     return arm(x).squaredNorm() < arm(y).squaredNorm();
+                   }));
+    const Vector_f opposite = -arm(witnesses.front());
+    std::iter_swap(witnesses.begin() + 1, std::max_element(witnesses.begin() + 1, witnesses.end(), [&](const Surfel& x, const Surfel& y) {
+                     return arm(x).dot(opposite) < arm(y).dot(opposite);
+                   }));
+    return true;
+  }
+
+  void match(const Source_pair& p, const Search_round& round, std::vector<Candidate>& candidates)
+  {
+    std::vector<Surfel> witnesses;
+    if (!choose_witnesses(p, witnesses)) return;
+    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)], &b = m_source.coarse.surfels[std::size_t(p.second)];
+    const Vector_f middle = 0.5f * (a.position + b.position);
+    const Matrix_f source_frame = pair_frame(a, b).transpose();
+    const Pair_curvatures curvatures(a, b);
+    const auto look = [&](const Surfel_pair_index::Entry* from, const Surfel_pair_index::Entry* to) {
+      m_counts.looks += std::size_t(to - from);
+      for (const auto* e = from; e != to; ++e) {
+        if (!curvatures.agrees(e->curvatures, round.curvature_tolerance)) continue;
+        const Surfel &c = m_target.coarse.surfels[e->first], &c1 = m_target.coarse.surfels[e->second];
+        Pose pose;
+        pose.rotation = pair_frame(c, c1) * source_frame;
+        pose.translation = 0.5f * (c.position + c1.position) - pose.rotation * middle;
+        ++m_counts.hits;
+        m_observer(No_observer::HIT, pose);
+        if (!has_counterpart(witnesses[0], pose) || !has_counterpart(witnesses[1], pose)) continue;
+        m_observer(No_observer::CHECKED, pose);
+        int support = 2;
+        const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
+        for (int w = 2; w < n && support + n - w >= needed; ++w) support += has_counterpart(witnesses[std::size_t(w)], pose);
+        if (support < needed) continue;
+        m_observer(No_observer::SUPPORTED, pose);
+        candidates.push_back({pose, 0});
+      }
+    };
+    index_of_scale(round.scales[p.scale]).for_each_run(p.angles, look);
+  }
+
+  const Prepared_scan& m_source;
+  const Prepared_scan& m_target;
+  const Search_parameters m_parameters;
+  Observer m_observer;
+  float m_spacing = 0, m_extent = 0;
+  Point_grid m_grid;
+  std::vector<std::int32_t> m_origins, m_source_probes, m_target_probes, m_fine_source_probes, m_fine_target_probes;
+  std::vector<std::pair<float, Surfel_pair_index>> m_indices;
+  std::size_t m_next_origin = 0;
+  Search_counts m_counts;
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_POSE_SEARCH_H

@@ -1,0 +1,287 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_PREPARED_SCAN_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_PREPARED_SCAN_H
+
+#include <CGAL/Crude_registration/internal/Depth_buffer.h>
+#include <CGAL/Crude_registration/internal/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/Point_grid.h>
+#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/scan_frame.h>
+#include <CGAL/Crude_registration/internal/Surfel_field.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The surface at one resolution.
+struct Surfel_level
+{
+  float spacing = 0;
+  std::vector<Surfel> surfels;
+  std::vector<std::uint8_t> borders; // 1 where the surfels around do not surround it
+  std::vector<float> weights;        // number of samples
+  Surfel_field field;
+};
+
+// What is computed once per scan and used by every pair it takes part in, in a frame of the scan's own, so that nothing
+// depends on the frame of the input or the order of its vertices but rounding.
+struct Prepared_scan
+{
+  Rigid_motion own_from_input;
+  std::size_t number_of_samples = 0;
+  double spacing = 0; // root of the area per sample
+  double extent = 0;   // M = (Dx + Dy + Dz) / 3 in the own frame
+  Surfel_level coarse; // a few thousand surfels: search
+  Surfel_level fine;   // at most some ten thousand: judgement
+  Depth_buffer depths;
+};
+
+// The samples (weight 1 each, or `weights`) of each cell of a grid whose cells meet at the origin, as surfels: means of
+// positions and normals. Samples of one cell that face away from its first one are another sheet and make a surfel of
+// their own. In the order of the cells.
+inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std::vector<Vector_f>& normals,
+                                  const std::vector<float>& weights, float cell)
+{
+  struct Item
+  {
+    std::uint64_t key;
+    std::uint32_t index;
+  };
+  std::vector<Item> items(points.size());
+  const float scale = 1 / cell;
+  constexpr float limit = float(1 << 20) - 1;
+  const auto coordinate = [&](float x) {
+    return std::uint64_t(std::int64_t(std::floor((std::min)((std::max)(x * scale, -limit), limit))) + (1 << 20));
+  };
+  for (std::size_t i = 0; i < points.size(); ++i)
+    items[i] = {(coordinate(points[i][0]) << 42) | (coordinate(points[i][1]) << 21) | coordinate(points[i][2]),
+                std::uint32_t(i)};
+  std::sort(items.begin(), items.end(),
+            [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+
+  Surfel_level level;
+  level.spacing = cell;
+  struct Sum
+  {
+    Vector_f position = Vector_f::Zero(), normal = Vector_f::Zero();
+    float weight = 0;
+  };
+  const auto emit = [&](const Sum& s) {
+    const float length = s.normal.norm();
+    if (!(length > 0.4f * s.weight)) return; // no surface with a side
+    Surfel surfel;
+    surfel.position = s.position / s.weight;
+    surfel.normal = s.normal / length;
+    level.surfels.push_back(surfel);
+    level.weights.push_back(s.weight);
+  };
+  for (std::size_t from = 0; from < items.size();) {
+    Sum front, back;
+    Vector_f reference = normals[items[from].index];
+    std::size_t to = from;
+    for (; to < items.size() && items[to].key == items[from].key; ++to) {
+      const std::size_t i = items[to].index;
+      const float w = weights.empty() ? 1.f : weights[i];
+      Sum& sum = normals[i].dot(reference) >= 0 ? front : back;
+      sum.position += w * points[i];
+      sum.normal += w * normals[i];
+      sum.weight += w;
+    }
+    if (front.weight > 0) emit(front);
+    if (back.weight > 0) emit(back);
+    from = to;
+  }
+  return level;
+}
+
+// Borders and curvatures of the surfels of a level, from the surfels within 2.6 spacings: the second fundamental form
+// that best explains how the normal changes, d n = W (d x), as Rusinkiewicz does on one face, here in the least squares
+// sense over the neighbourhood (which is cut off at borders, not dropped).
+inline void describe_surfels(Surfel_level& level)
+{
+  const float radius = 2.6f * level.spacing;
+  std::vector<Vector> points;
+  points.reserve(level.surfels.size());
+  for (const Surfel& s : level.surfels) points.push_back(s.position.cast<double>());
+  const Point_grid grid(points, double(radius));
+  level.borders.assign(level.surfels.size(), 0);
+  for (std::size_t i = 0; i < level.surfels.size(); ++i) {
+    Surfel& s = level.surfels[i];
+    const Vector_f u = s.normal.unitOrthogonal(), v = s.normal.cross(u);
+    Vector_f mean = Vector_f::Zero();
+    int count = 0;
+    float xx = 0, xy = 0, yy = 0;
+    Vector_f right = Vector_f::Zero();
+    grid.for_each_within(points[i], double(radius), [&](std::int32_t j, double) {
+      const Surfel& t = level.surfels[std::size_t(j)];
+      if (std::size_t(j) == i || t.normal.dot(s.normal) < 0.3f) return;
+      const Vector_f d = t.position - s.position, dn = t.normal - s.normal;
+      mean += d;
+      ++count;
+      const float x = d.dot(u), y = d.dot(v), a = dn.dot(u), b = dn.dot(v);
+      xx += x * x;
+      xy += x * y;
+      yy += y * y;
+      right += Vector_f(x * a, y * a + x * b, y * b);
+    });
+    level.borders[i] = count < 5 || mean.norm() > 0.8f * level.spacing * float(count);
+    Matrix_f left;
+    left << xx, xy, 0, xy, xx + yy, xy, 0, xy, yy;
+    left.diagonal().array() += 1e-6f * level.spacing * level.spacing;
+    const Vector_f w = left.ldlt().solve(right); // W = [w0 w1; w1 w2]
+    const float middle = 0.5f * (w[0] + w[2]), half = std::sqrt(0.25f * (w[0] - w[2]) * (w[0] - w[2]) + w[1] * w[1]);
+    s.minimal_curvature = (middle - half) * level.spacing;
+    s.maximal_curvature = (middle + half) * level.spacing;
+  }
+}
+
+struct Preparation_parameters
+{
+  double fine_surfels = 15000;
+  double coarse_surfels = 1800;
+};
+
+// The surface as samples with unit normals, in the frame of the scan's own.
+struct Oriented_samples
+{
+  std::vector<Vector_f> points;
+  std::vector<Vector_f> normals;
+};
+
+// The vertices of the faces, as a scan's samples are; where the faces are so large that their vertices do not tell the
+// surface (a CAD model), points spread evenly over the faces, about `distance` from each other. Samples that are seen at
+// a grazing angle lie on the faces that bridge a depth edge: they are left out.
+inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const Rigid_motion& own, const Flat_sensor& sensor,
+                                         double area, double distance)
+{
+  Oriented_samples samples;
+  const Matrix_f rotation = own.rotation.cast<float>();
+  double area_of_large_faces = 0;
+  for (const auto& f : mesh.faces) {
+    const double a = 0.5 * area_vector(mesh, f).norm();
+    if (a > 4 * distance * distance) area_of_large_faces += a;
+  }
+  if (area_of_large_faces > 0.2 * area) {
+    for (const auto& f : mesh.faces) {
+      const Vector &a = mesh.points[std::size_t(f[0])], &b = mesh.points[std::size_t(f[1])],
+                   &c = mesh.points[std::size_t(f[2])];
+      const Vector normal = unit_or_zero(area_vector(a, b, c));
+      if (normal.isZero()) continue;
+      const double longest = std::sqrt((std::max)({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+      const int n = int(std::ceil((std::min)(longest / distance, 2000.)));
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j) {
+          const double u = (i + 1. / 3) / n, v = (j + 1. / 3) / n;
+          samples.points.push_back(own(Vector(a + u * (b - a) + v * (c - a))).cast<float>());
+          samples.normals.push_back(rotation * normal.cast<float>());
+        }
+    }
+    return samples;
+  }
+  constexpr double grazing = 0.12;
+  const std::vector<Vector> normals = vertex_normals(mesh);
+  samples.points.reserve(mesh.points.size());
+  samples.normals.reserve(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    if (normals[i].isZero()) continue;
+    if (sensor.kind != Flat_sensor::UNKNOWN) {
+      const Vector sight = sensor.towards(mesh.points[i]);
+      if (-sight.dot(normals[i]) < grazing * sight.norm()) continue;
+    }
+    samples.points.push_back(own(mesh.points[i]).cast<float>());
+    samples.normals.push_back(rotation * normals[i].cast<float>());
+  }
+  return samples;
+}
+
+// The direction in which a surface without a known sensor may have been seen: against the mean normal, if nearly all of
+// it faces that way; null otherwise (closed meshes, several views).
+inline Vector_f likely_viewing_direction(const Oriented_samples& samples)
+{
+  Vector_f mean = Vector_f::Zero();
+  for (const Vector_f& n : samples.normals) mean += n;
+  const float length = mean.norm();
+  if (!(length > 0.5f * float(samples.normals.size()))) return Vector_f::Zero();
+  mean /= length;
+  std::size_t facing = 0;
+  for (const Vector_f& n : samples.normals) facing += n.dot(mean) > 0;
+  return double(facing) >= 0.97 * double(samples.normals.size()) ? Vector_f(-mean) : Vector_f(Vector_f::Zero());
+}
+
+// Prepares a scan for search. The sensor is in the frame of the mesh.
+// A scan of fewer than four surfels cannot be registered; what it holds is prepared all the same.
+inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
+                                  const Preparation_parameters& parameters = {})
+{
+  Prepared_scan scan;
+  Vector direction = Vector::Zero();
+  if (sensor.kind == Flat_sensor::ORTHOGRAPHIC) direction = sensor.vector;
+  if (sensor.kind == Flat_sensor::PERSPECTIVE) {
+    for (const Vector& p : mesh.points) direction += unit_or_zero(p - sensor.vector);
+    direction = unit_or_zero(direction);
+  }
+  scan.own_from_input = scan_frame(mesh, direction);
+  const Rigid_motion& own = scan.own_from_input;
+  const Vector size = extent_in_frame(mesh, own);
+  scan.extent = size.sum() / 3;
+  double area = 0;
+  for (const auto& f : mesh.faces) area += 0.5 * area_vector(mesh, f).norm();
+  if (!(area > 0)) return scan;
+
+  // A surface cuts about 1.5 cells of a cubic grid for each area of the square of their edge length.
+  const double finest = std::sqrt(1.5 * area / parameters.fine_surfels);
+  const Oriented_samples samples = samples_of_faces(mesh, own, sensor, area, 0.5 * finest);
+  scan.number_of_samples = samples.points.size();
+  if (samples.points.empty()) return scan;
+  scan.spacing = std::sqrt(area / double(samples.points.size()));
+  const double fine = (std::max)(2 * scan.spacing, finest);
+  const double coarse = (std::max)(3.5 * scan.spacing, std::sqrt(1.5 * area / parameters.coarse_surfels));
+
+  scan.fine = group_samples(samples.points, samples.normals, {}, float(fine));
+  std::vector<Vector_f> points, normals;
+  points.reserve(scan.fine.surfels.size());
+  normals.reserve(scan.fine.surfels.size());
+  for (const Surfel& s : scan.fine.surfels) {
+    points.push_back(s.position);
+    normals.push_back(s.normal);
+  }
+  scan.coarse = group_samples(points, normals, scan.fine.weights, float(coarse));
+  describe_surfels(scan.coarse);
+  scan.fine.field = Surfel_field(scan.fine.surfels, scan.fine.spacing, 1.6f * scan.fine.spacing);
+  scan.coarse.field = Surfel_field(scan.coarse.surfels, 0.7f * scan.coarse.spacing, 2.f * scan.coarse.spacing);
+
+  const float cell = float(2.2 * scan.spacing);
+  const Matrix_f rotation = own.rotation.cast<float>();
+  if (sensor.kind != Flat_sensor::UNKNOWN) {
+    scan.depths = Depth_buffer(sensor.kind, own(sensor.vector).cast<float>(), rotation * direction.cast<float>(),
+                               samples.points, cell);
+  } else {
+    const Vector_f likely = likely_viewing_direction(samples);
+    if (!likely.isZero())
+      scan.depths = Depth_buffer(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell);
+  }
+  return scan;
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_PREPARED_SCAN_H

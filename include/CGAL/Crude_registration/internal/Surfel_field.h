@@ -1,0 +1,141 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SURFEL_FIELD_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_SURFEL_FIELD_H
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+using Vector_f = Eigen::Vector3f;
+using Matrix_f = Eigen::Matrix3f;
+
+// A small piece of surface: the mean of the samples in one cell, with their mean normal and the principal curvatures of
+// the neighbourhood times the spacing of the surfels, so that they have no unit.
+struct Surfel
+{
+  Vector_f position;
+  Vector_f normal;
+  float minimal_curvature = 0;
+  float maximal_curvature = 0;
+};
+
+// The nearest surfel to any place near the surface, by one look-up: voxels in blocks of 4 x 4 x 4, of which only those
+// near the surface exist. Memory is linear in the number of surfels.
+class Surfel_field
+{
+public:
+  static constexpr int none = -1;
+  static constexpr std::size_t maximum_size = 65535; // indices are stored in 16 bits
+
+  Surfel_field() = default;
+
+  // Every voxel of edge length `voxel` whose centre is within `reach` of a surfel knows the surfel nearest to its
+  // centre, the first of equally near ones.
+  Surfel_field(const std::vector<Surfel>& surfels, float voxel, float reach) : m_scale(1 / voxel)
+  {
+    if (surfels.empty()) return;
+    Vector_f low = surfels.front().position, high = low;
+    for (const Surfel& s : surfels) {
+      low = low.cwiseMin(s.position);
+      high = high.cwiseMax(s.position);
+    }
+    const float margin = reach + voxel;
+    for (int i = 0; i < 3; ++i) {
+      // What is more than maximum_blocks away from the middle (a spike) is not represented.
+      const float limit = 0.5f * float(maximum_blocks) * 4 * voxel;
+      const float middle = 0.5f * (low[i] + high[i]);
+      m_low[i] = (std::max)(low[i] - margin, middle - limit);
+      const float top = (std::min)(high[i] + margin, middle + limit);
+      m_blocks[std::size_t(i)] = (std::min)(maximum_blocks, int((top - m_low[i]) * m_scale * 0.25f) + 1);
+      m_size[i] = float(4 * m_blocks[std::size_t(i)]);
+    }
+    m_block_of.assign(std::size_t(m_blocks[0]) * std::size_t(m_blocks[1]) * std::size_t(m_blocks[2]), -1);
+    std::vector<float> distances;
+    const float reach2 = reach * m_scale * reach * m_scale;
+    for (std::size_t i = 0; i < surfels.size(); ++i) {
+      const Vector_f p = (surfels[i].position - m_low) * m_scale;
+      int from[3], to[3];
+      bool inside = true;
+      for (int k = 0; k < 3; ++k) {
+        inside = inside && p[k] >= 0 && p[k] < m_size[k];
+        from[k] = (std::max)(0, int(std::ceil(p[k] - reach * m_scale - 0.5f)));
+        to[k] = (std::min)(int(m_size[k]) - 1, int(std::floor(p[k] + reach * m_scale - 0.5f)));
+      }
+      if (!inside) continue;
+      for (int x = from[0]; x <= to[0]; ++x) {
+        const float dx = float(x) + 0.5f - p[0];
+        for (int y = from[1]; y <= to[1]; ++y) {
+          const float dy = float(y) + 0.5f - p[1], dxy = dx * dx + dy * dy;
+          if (dxy > reach2) continue;
+          for (int z = from[2]; z <= to[2]; ++z) {
+            const float dz = float(z) + 0.5f - p[2], d = dxy + dz * dz;
+            if (d > reach2) continue;
+            std::int32_t& block = m_block_of[block_index(x, y, z)];
+            if (block < 0) {
+              block = std::int32_t(m_voxels.size() / 64);
+              m_voxels.resize(m_voxels.size() + 64, empty);
+              distances.resize(m_voxels.size(), (std::numeric_limits<float>::max)());
+            }
+            const std::size_t v = std::size_t(block) * 64 + voxel_index(x, y, z);
+            if (d < distances[v]) {
+              distances[v] = d;
+              m_voxels[v] = std::uint16_t(i);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  // The index of the surfel nearest to the centre of the voxel of `p`, or `none`.
+  int nearest(const Vector_f& p) const
+  {
+    const float x = (p[0] - m_low[0]) * m_scale, y = (p[1] - m_low[1]) * m_scale, z = (p[2] - m_low[2]) * m_scale;
+    if (!(x >= 0 && y >= 0 && z >= 0 && x < m_size[0] && y < m_size[1] && z < m_size[2])) return none;
+    const int i = int(x), j = int(y), k = int(z);
+    const std::int32_t block = m_block_of[block_index(i, j, k)];
+    if (block < 0) return none;
+    const std::uint16_t s = m_voxels[std::size_t(block) * 64 + voxel_index(i, j, k)];
+    return s == empty ? none : int(s);
+  }
+
+private:
+  static constexpr std::uint16_t empty = 65535;
+  static constexpr int maximum_blocks = 256;
+
+  std::size_t block_index(int x, int y, int z) const
+  {
+    return (std::size_t(x >> 2) * std::size_t(m_blocks[1]) + std::size_t(y >> 2)) * std::size_t(m_blocks[2]) +
+           std::size_t(z >> 2);
+  }
+  static std::size_t voxel_index(int x, int y, int z) { return std::size_t(((x & 3) << 4) | ((y & 3) << 2) | (z & 3)); }
+
+  Vector_f m_low = Vector_f::Zero();
+  Vector_f m_size = Vector_f::Zero(); // in voxels
+  float m_scale = 1;
+  std::array<int, 3> m_blocks{};
+  std::vector<std::int32_t> m_block_of;
+  std::vector<std::uint16_t> m_voxels;
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_SURFEL_FIELD_H
