@@ -8,7 +8,11 @@
 #ifndef CGAL_CRUDE_REGISTRATION_APPROXIMATION_ERROR_H
 #define CGAL_CRUDE_REGISTRATION_APPROXIMATION_ERROR_H
 
+#include <CGAL/Crude_registration/Range_image.h>
+#include <CGAL/Crude_registration/estimate_sensor.h>
 #include <CGAL/Crude_registration/internal/Curvature_tensors.h>
+#include <CGAL/Crude_registration/internal/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/Flat_triangulation.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/scan_frame.h>
 #include <CGAL/Crude_registration/named_parameters.h>
@@ -76,6 +80,47 @@ Scan_extent scan_extent(const Flat_mesh& mesh, const NamedParameters& np, const 
   return {d.x(), d.y(), d.z()};
 }
 
+// The frame of the grid: z towards the sensor, x along the columns' mean direction in the image plane. `mesh`: the
+// triangulation, whose own frame stands in for what the grid does not say.
+inline Rigid_motion grid_frame(const Flat_range_image& image, const Flat_mesh& mesh)
+{
+  const Rigid_motion own = scan_frame(mesh);
+  const Vector centroid = own.inverse().translation;
+  const Vector z = image.sensor.kind == Flat_sensor::UNKNOWN ? Vector(own.rotation.row(2))
+                                                             : Vector(-unit_or_zero(image.sensor.towards(centroid)));
+  if (z.isZero(0)) return own;
+  Vector x = Vector::Zero();
+  for (std::size_t row = 0; row < image.rows; ++row)
+    for (std::size_t column = 0; column + 1 < image.columns; ++column) {
+      const std::int32_t i = image.index(column, row), j = image.index(column + 1, row);
+      if (i >= 0 && j >= 0) x += image.point(j) - image.point(i);
+    }
+  x = unit_or_zero(x - z * z.dot(x));
+  return x.isZero(0) ? scan_frame(mesh, -z) : frame_of_axes(x, z, centroid);
+}
+
+// A range image of known or estimated sensor with its triangulation.
+struct Flat_range_mesh
+{
+  Flat_range_image image;
+  Sampling samples;
+  Flat_mesh mesh;
+
+  template <class Kernel>
+  explicit Flat_range_mesh(const Range_image<Kernel>& source) : image(source)
+  {
+    if (image.sensor.kind == Flat_sensor::UNKNOWN) image.sensor = Sensor_estimation(image)();
+    samples = sampling(image);
+    mesh = flat_triangulation(image, samples, 5);
+  }
+
+  Scan_extent extent() const
+  {
+    const Vector d = extent_in_frame(mesh, grid_frame(image, mesh));
+    return {d.x(), d.y(), d.z()};
+  }
+};
+
 template <class NamedParameters>
 double approximation_error(const Flat_mesh& mesh, const NamedParameters& np, const std::string& function)
 {
@@ -119,6 +164,21 @@ Scan_extent scan_extent(const FaceGraph& mesh, const NamedParameters& np = param
 /*!
  * \ingroup PkgCrudeRegistrationRef
  *
+ * \brief measures a range image along the axes of its grid.
+ *
+ * The depth axis is that of the sensor (or of what `estimate_sensor()` finds; the mean normal if it finds none), the
+ * horizontal axis that of the columns, wherever the image has been moved. Samples that are in no triangle of
+ * `triangulate_range_image()` do not count.
+ */
+template <class Kernel>
+Scan_extent scan_extent(const Range_image<Kernel>& image)
+{
+  return internal::Flat_range_mesh(image).extent();
+}
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
  * \brief the paper's approximation error \f$ \epsilon = 0.15 \, s \, A / \%smooth \f$ of a scan: how far, as a mean
  * squared distance, `simplify_scan()` may leave the original surface. A squared length.
  *
@@ -142,6 +202,22 @@ double approximation_error(const FaceGraph& mesh, const NamedParameters& np = pa
 {
   return internal::approximation_error(internal::to_flat_mesh(mesh, np, "approximation_error", "mesh"), np,
                                        "approximation_error");
+}
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief the paper's approximation error of a range image, with its sampling distance, its extent along the axes of its
+ * grid, and the surface types of its triangulation. This is the paper's own case.
+ */
+template <class Kernel>
+double approximation_error(const Range_image<Kernel>& image)
+{
+  const internal::Flat_range_mesh scan(image);
+  return internal::approximation_error(
+      scan.samples.distance, scan.extent().image_size(),
+      internal::count_surface_types(internal::curvature_tensors(scan.mesh), internal::flat_curvature(scan.mesh))
+          .percent_smooth());
 }
 
 } // namespace Crude_registration
