@@ -26,6 +26,9 @@
 namespace CGAL {
 namespace Crude_registration {
 
+template <class Kernel>
+struct Scan_file; // IO/read_scan.h
+
 /*!
 \ingroup PkgCrudeRegistrationRef
 
@@ -54,14 +57,15 @@ public:
   \param np optional named parameters: `vertex_point_map`; `viewpoint` (a point) or `viewing_direction` (a vector), the
          sensor in the frame of the mesh. Without them the free space is taken along the mean normal where nearly the
          whole surface faces that way, and nowhere otherwise.
+  \param name what the mesh is called in the text of exceptions
   \throws std::invalid_argument if the mesh has no face of positive area, a face that is not a triangle, a coordinate
          that is not finite, or both `viewpoint` and `viewing_direction` are given.
   */
   template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
-  static Scan from_mesh(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values(),
-                        const std::string& name = "mesh")
+  explicit Scan(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values(),
+                const std::string& name = "Scan: mesh")
   {
-    return Scan(internal::to_flat_mesh(mesh, np, "Scan", name), given_sensor(np), name);
+    prepare(internal::to_flat_mesh(mesh, np, name, "it"), given_sensor(np, name), name);
   }
 
   /*!
@@ -72,14 +76,10 @@ public:
   \throws std::invalid_argument if no face is left.
   */
   template <class NamedParameters = parameters::Default_named_parameters>
-  static Scan from_range_image(const Range_image<Kernel>& image,
-                               const NamedParameters& np = parameters::default_values(),
-                               const std::string& name = "image")
+  explicit Scan(const Range_image<Kernel>& image, const NamedParameters& np = parameters::default_values(),
+                const std::string& name = "Scan: image")
   {
-    internal::Flat_range_image flat(image);
-    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = given_sensor(np);
-    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::Sensor_estimation(flat)();
-    return Scan(internal::flat_triangulation(flat, internal::sampling(flat)), flat.sensor, name);
+    prepare_image(image, np, name);
   }
 
   /*!
@@ -87,22 +87,34 @@ public:
 
   \param points the samples
   \param np optional named parameters: `viewpoint` or `viewing_direction`, the sensor in the frame of the points
+  \param name what the points are called in the text of exceptions
   \throws std::invalid_argument if a coordinate is not finite or no face is left.
   */
   template <class NamedParameters = parameters::Default_named_parameters>
-  static Scan from_points(const std::vector<Point_3>& points,
-                          const NamedParameters& np = parameters::default_values(), const std::string& name = "points")
+  explicit Scan(const std::vector<Point_3>& points, const NamedParameters& np = parameters::default_values(),
+                const std::string& name = "Scan: points")
   {
-    std::vector<internal::Vector> flat;
-    flat.reserve(points.size());
-    for (const Point_3& p : points) {
-      flat.push_back(internal::to_vector(p));
-      if (!flat.back().allFinite())
-        throw std::invalid_argument("Scan: point " + std::to_string(flat.size() - 1) + " of " + name +
-                                    " has a coordinate that is not finite");
+    prepare_points(points, np, name);
+  }
+
+  /*!
+  prepares what `read_scan()` found in a file: a range image, a mesh or points, as above.
+  */
+  template <class NamedParameters = parameters::Default_named_parameters>
+  explicit Scan(const Scan_file<Kernel>& file, const NamedParameters& np = parameters::default_values(),
+                const std::string& name = "Scan: file")
+  {
+    switch (file.kind) {
+    case Scan_file<Kernel>::RANGE_IMAGE:
+      prepare_image(file.image, np, name);
+      break;
+    case Scan_file<Kernel>::MESH:
+      prepare(internal::to_flat_mesh(file.mesh, parameters::default_values(), name, "it"), given_sensor(np, name),
+              name);
+      break;
+    case Scan_file<Kernel>::POINTS:
+      prepare_points(file.points, np, name);
     }
-    const internal::Flat_sensor sensor = given_sensor(np);
-    return Scan(internal::flat_triangulation(flat, sensor, 5), sensor, name);
   }
 
   /// the number of samples that take part.
@@ -122,28 +134,53 @@ public:
   /// \endcond
 
 private:
-  Scan(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor, const std::string& name)
-      : m_prepared(internal::prepare_scan(mesh, sensor))
+  template <class NamedParameters>
+  void prepare_image(const Range_image<Kernel>& image, const NamedParameters& np, const std::string& name)
   {
-    if (m_prepared.number_of_samples == 0)
-      throw std::invalid_argument("Scan: " + name + " has no surface: no face of positive area that the sensor can see");
+    internal::Flat_range_image flat(image);
+    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = given_sensor(np, name);
+    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::Sensor_estimation(flat)();
+    prepare(internal::flat_triangulation(flat, internal::sampling(flat)), flat.sensor, name);
   }
 
   template <class NamedParameters>
-  static internal::Flat_sensor given_sensor([[maybe_unused]] const NamedParameters& np)
+  void prepare_points(const std::vector<Point_3>& points, const NamedParameters& np, const std::string& name)
+  {
+    std::vector<internal::Vector> flat;
+    flat.reserve(points.size());
+    for (const Point_3& p : points) {
+      flat.push_back(internal::to_vector(p));
+      if (!flat.back().allFinite())
+        throw std::invalid_argument(name + ": point " + std::to_string(flat.size() - 1) +
+                                    " has a coordinate that is not finite");
+    }
+    constexpr double maximum_edge_ratio = 5; // as for range images
+    const internal::Flat_sensor sensor = given_sensor(np, name);
+    prepare(internal::flat_triangulation(flat, sensor, maximum_edge_ratio), sensor, name);
+  }
+
+  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor, const std::string& name)
+  {
+    m_prepared = internal::prepare_scan(mesh, sensor);
+    if (m_prepared.number_of_samples == 0)
+      throw std::invalid_argument(name + " has no surface: there is no face of positive area that the sensor can see");
+  }
+
+  template <class NamedParameters>
+  static internal::Flat_sensor given_sensor([[maybe_unused]] const NamedParameters& np,
+                                            [[maybe_unused]] const std::string& name)
   {
     constexpr bool has_viewpoint = internal::is_given<NamedParameters, internal_np::viewpoint_t>;
     constexpr bool has_direction = internal::is_given<NamedParameters, internal_np::viewing_direction_t>;
     if constexpr (has_viewpoint && has_direction)
-      throw std::invalid_argument("Scan: both viewpoint and viewing_direction are given");
+      throw std::invalid_argument(name + ": both viewpoint and viewing_direction are given");
     else if constexpr (has_viewpoint)
       return internal::to_flat_sensor(
           Sensor<Kernel>::perspective(internal::parameter(np, internal_np::viewpoint, Point_3(CGAL::ORIGIN))));
     else if constexpr (has_direction)
       return internal::to_flat_sensor(Sensor<Kernel>::orthographic(
           internal::parameter(np, internal_np::viewing_direction, typename Kernel::Vector_3(CGAL::NULL_VECTOR))));
-    else
-      return internal::Flat_sensor();
+    else return internal::Flat_sensor();
   }
 
   internal::Prepared_scan m_prepared;

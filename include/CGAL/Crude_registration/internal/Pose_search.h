@@ -135,7 +135,8 @@ Agreement agreement(const Prepared_scan& source, const Surfel_level& source_leve
     const int j = target_level.field.nearest(p);
     if (j >= 0) {
       const Surfel& t = target_level.surfels[std::size_t(j)];
-      if (std::abs(t.normal.dot(p - t.position)) <= distance && (pose.rotation * s.normal).dot(t.normal) >= minimal_cosine)
+      if (std::abs(t.normal.dot(p - t.position)) <= distance &&
+          (pose.rotation * s.normal).dot(t.normal) >= minimal_cosine)
         ++overlap;
     }
     if (target.depths.is_known() && target.depths.in_front(p) > free_depth) ++violations;
@@ -213,10 +214,10 @@ struct Judged_pose
 };
 
 // The search for the motion of a source to a target: trihedra of the source (V, v1, v2, v3) looked up in the target.
-// V and v1 with their normals and curvatures find (C, c1) in the index of surfel pairs (the sphere of section 6, and the
-// turn on the circle, which the normals give); v2 and v3, on either side of the line, have to find a counterpart where
-// the motion takes them (the fourth vertex), and so have most of some further witnesses around. What is left is scored
-// on the whole scan, with free space, and the best distinct motions are refined and judged.
+// V and v1 with their normals and curvatures find (C, c1) in the index of surfel pairs (the sphere of section 6, and
+// the turn on the circle, which the normals give); v2 and v3, on either side of the line, have to find a counterpart
+// where the motion takes them (the fourth vertex), and so have most of some further witnesses around. What is left is
+// scored on the whole scan, with free space, and the best distinct motions are refined and judged.
 template <class Observer = No_observer>
 class Pose_search
 {
@@ -322,9 +323,9 @@ public:
     const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
     for (float reach : {2.f, 2.f, 2.f, 1.25f, 1.25f, 0.75f})
       if (refine_step(m_source.fine, m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
-    const Agreement a = agreement(m_source, m_source.fine, m_fine_source_probes, m_target, m_target.fine,
-                                  m_fine_target_probes, pose, 0.35f * spacing, 0.906f,
-                                  3 * float((std::max)(m_source.spacing, m_target.spacing)));
+    const Agreement a =
+        agreement(m_source, m_source.fine, m_fine_source_probes, m_target, m_target.fine, m_fine_target_probes, pose,
+                  0.35f * spacing, 0.906f, 3 * float((std::max)(m_source.spacing, m_target.spacing)));
     return {pose, a.overlap, a.violations};
   }
 
@@ -390,9 +391,9 @@ private:
   {
     const auto source_probes = first(m_source_probes, probes), target_probes = first(m_target_probes, probes);
     for (Candidate& c : candidates) {
-      const Agreement a = agreement(m_source, m_source.coarse, source_probes, m_target, m_target.coarse, target_probes,
-                                    c.pose, m_parameters.distance * m_spacing, m_parameters.minimal_cosine,
-                                    1.2f * m_spacing);
+      const Agreement a =
+          agreement(m_source, m_source.coarse, source_probes, m_target, m_target.coarse, target_probes, c.pose,
+                    m_parameters.distance * m_spacing, m_parameters.minimal_cosine, 1.2f * m_spacing);
       c.score = a.overlap - 1.5f * a.violations;
     }
     sort_by_score(candidates);
@@ -452,7 +453,8 @@ private:
   // Surfels around the pair. The first two are v2 and v3: furthest from the line through V and v1, on either side.
   bool choose_witnesses(const Source_pair& p, std::vector<Surfel>& witnesses) const
   {
-    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)], &b = m_source.coarse.surfels[std::size_t(p.second)];
+    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
+                 &b = m_source.coarse.surfels[std::size_t(p.second)];
     std::vector<std::int32_t> around;
     const Vector_f middle = 0.5f * (a.position + b.position);
     const float reach = (std::max)(m_parameters.witness_reach * m_extent, 4 * m_spacing);
@@ -469,11 +471,13 @@ private:
       const Vector_f e = s.position - a.position;
       return e - e.dot(d) * d;
     };
-    std::iter_swap(witnesses.begin(), std::max_element(witnesses.begin(), witnesses.end(), [&](const Surfel& x, const Surfel& y) {
+    std::iter_swap(witnesses.begin(),
+                   std::max_element(witnesses.begin(), witnesses.end(), [&](const Surfel& x, const Surfel& y) {
                      return arm(x).squaredNorm() < arm(y).squaredNorm();
                    }));
     const Vector_f opposite = -arm(witnesses.front());
-    std::iter_swap(witnesses.begin() + 1, std::max_element(witnesses.begin() + 1, witnesses.end(), [&](const Surfel& x, const Surfel& y) {
+    std::iter_swap(witnesses.begin() + 1,
+                   std::max_element(witnesses.begin() + 1, witnesses.end(), [&](const Surfel& x, const Surfel& y) {
                      return arm(x).dot(opposite) < arm(y).dot(opposite);
                    }));
     return true;
@@ -483,7 +487,8 @@ private:
   {
     std::vector<Surfel> witnesses;
     if (!choose_witnesses(p, witnesses)) return;
-    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)], &b = m_source.coarse.surfels[std::size_t(p.second)];
+    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
+                 &b = m_source.coarse.surfels[std::size_t(p.second)];
     const Vector_f middle = 0.5f * (a.position + b.position);
     const Matrix_f source_frame = pair_frame(a, b).transpose();
     const Pair_curvatures curvatures(a, b);
@@ -501,7 +506,8 @@ private:
         m_observer(No_observer::CHECKED, pose);
         int support = 2;
         const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
-        for (int w = 2; w < n && support + n - w >= needed; ++w) support += has_counterpart(witnesses[std::size_t(w)], pose);
+        for (int w = 2; w < n && support + n - w >= needed; ++w)
+          support += has_counterpart(witnesses[std::size_t(w)], pose);
         if (support < needed) continue;
         m_observer(No_observer::SUPPORTED, pose);
         candidates.push_back({pose, 0});

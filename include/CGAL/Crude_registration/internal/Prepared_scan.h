@@ -46,7 +46,7 @@ struct Prepared_scan
 {
   Rigid_motion own_from_input;
   std::size_t number_of_samples = 0;
-  double spacing = 0; // root of the area per sample
+  double spacing = 0;  // root of the area per sample
   double extent = 0;   // M = (Dx + Dy + Dz) / 3 in the own frame
   Surfel_level coarse; // a few thousand surfels: search
   Surfel_level fine;   // at most some ten thousand: judgement
@@ -166,8 +166,8 @@ struct Oriented_samples
 };
 
 // The vertices of the faces, as a scan's samples are; where the faces are so large that their vertices do not tell the
-// surface (a CAD model), points spread evenly over the faces, about `distance` from each other. Samples that are seen at
-// a grazing angle lie on the faces that bridge a depth edge: they are left out.
+// surface (a CAD model), points spread evenly over the faces, about `distance` from each other. Samples that are seen
+// at a grazing angle lie on the faces that bridge a depth edge: they are left out.
 inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const Rigid_motion& own, const Flat_sensor& sensor,
                                          double area, double distance)
 {
@@ -184,7 +184,8 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const Rigid_moti
                    &c = mesh.points[std::size_t(f[2])];
       const Vector normal = unit_or_zero(area_vector(a, b, c));
       if (normal.isZero()) continue;
-      const double longest = std::sqrt((std::max)({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+      const double longest =
+          std::sqrt((std::max)({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
       const int n = int(std::ceil((std::min)(longest / distance, 2000.)));
       for (int i = 0; i < n; ++i)
         for (int j = 0; i + j < n; ++j) {

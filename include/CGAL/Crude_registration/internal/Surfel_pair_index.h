@@ -73,8 +73,7 @@ struct Pair_curvatures
   Pair_curvatures(const Surfel& a, const Surfel& b)
       : values{quantise(a.minimal_curvature), quantise(a.maximal_curvature), quantise(b.minimal_curvature),
                quantise(b.maximal_curvature)}
-  {
-  }
+  {}
   Pair_curvatures() = default;
 
   bool agrees(const Pair_curvatures& o, int tolerance) const

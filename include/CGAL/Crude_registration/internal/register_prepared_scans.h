@@ -8,6 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_REGISTER_PREPARED_SCANS_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_REGISTER_PREPARED_SCANS_H
 
+#include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/internal/Pose_search.h>
 #include <CGAL/Crude_registration/internal/point_to_plane.h>
 
@@ -40,21 +41,39 @@ private:
   const Surfel_level& m_level;
 };
 
+// What is to be believed of the poses that were found.
+struct Verdict
+{
+  Registration_status status = NOT_REGISTERED;
+  std::string reason;
+  double confidence = 0;
+  std::vector<std::string> free_motions;
+};
+
 struct Registration_outcome
 {
-  std::vector<Judged_pose> poses; // distinct, best first; in own frames
-  bool is_swapped = false;        // the poses map the target to the source
-  Rigid_motion crude, motion;     // target from source, in the frames of the input
-  Refinement refinement;          // in own frames
-  float runner_up = 0;
+  std::vector<Judged_pose> poses;          // distinct, best first; in own frames, see to_input()
+  bool is_swapped = false;                 // the poses map the target to the source
+  Rigid_motion source_frame, target_frame; // own from input, of what the poses call source and target
+  Rigid_motion crude, motion;              // target from source, in the frames of the input
+  Refinement refinement;                   // in own frames
+  double overlap = 0, residual = 0;
+  Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
+  Verdict verdict;
   Search_counts counts;
   double search_seconds = 0, refine_seconds = 0;
+
+  Rigid_motion to_input(const Rigid_motion& own) const
+  {
+    const Rigid_motion in_input = target_frame.inverse() * own * source_frame;
+    return is_swapped ? in_input.inverse() : in_input;
+  }
 };
 
 inline Rigid_motion to_rigid_motion(const Pose& pose)
 {
   Rigid_motion m;
-  // the nearest rotation in double: a float's is orthogonal to seven digits only
+  // A float's rotation is orthogonal to seven digits only.
   m.rotation = Eigen::Quaterniond(Matrix(pose.rotation.cast<double>())).normalized().toRotationMatrix();
   m.translation = pose.translation.cast<double>();
   return m;
@@ -69,41 +88,84 @@ inline bool are_swapped(const Prepared_scan& source, const Prepared_scan& target
   return source.extent > target.extent;
 }
 
+// The confidence in the best pose, from its score and its lead over the next distinct one: a logistic function of both,
+// with the scores that wrong poses reach by chance as its lower bound.
+inline double confidence(const std::vector<Judged_pose>& poses)
+{
+  if (poses.empty() || !(poses.front().score() > 0)) return 0;
+  const double score = double(poses.front().score());
+  const double ratio = poses.size() > 1 ? (std::max)(0., double(poses[1].score())) / score : 0;
+  const double evidence = (std::min)(3 * std::log(score / 0.05) + 12 * (0.5 - ratio), 12 * std::log(score / 0.045));
+  return 1 / (1 + std::exp(-evidence));
+}
+
+inline Verdict judge_poses(const std::vector<Judged_pose>& poses, const Refinement& refinement)
+{
+  constexpr double believed = 0.9, // confidence
+      plausible = 0.1;             // score
+  Verdict verdict;
+  if (poses.empty()) {
+    verdict.reason = "no overlap found: no motion brings any part of the scans together";
+    return verdict;
+  }
+  verdict.confidence = confidence(poses);
+  const bool is_plausible = poses.front().score() >= plausible;
+  if (is_plausible && !refinement.free_motions.empty()) {
+    verdict.status = AMBIGUOUS;
+    verdict.reason = "the overlap leaves " + std::to_string(refinement.free_motions.size()) + " motions free";
+  } else if (verdict.confidence >= believed) {
+    verdict.status = REGISTERED;
+  } else if (is_plausible) {
+    verdict.status = AMBIGUOUS;
+    verdict.reason = "several distinct motions bring the scans together about as well";
+  } else {
+    verdict.reason = "no overlap found that cannot be by chance";
+  }
+  return verdict;
+}
+
+// a and b are source and target.
 inline Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepared_scan& b,
                                                     const Search_parameters& parameters = {})
 {
   Registration_outcome outcome;
   outcome.is_swapped = are_swapped(a, b);
   const Prepared_scan &source = outcome.is_swapped ? b : a, &target = outcome.is_swapped ? a : b;
+  outcome.source_frame = source.own_from_input;
+  outcome.target_frame = target.own_from_input;
+  constexpr std::size_t fewest_surfels = 4;
+  if (source.coarse.surfels.size() < fewest_surfels) {
+    outcome.verdict.reason = std::string("too few vertices: the surface of the ") +
+                             (outcome.is_swapped ? "target" : "source") + " is too small for its samples";
+    return outcome;
+  }
   const auto start = std::chrono::steady_clock::now();
   Pose_search<> search(source, target, parameters);
   outcome.poses = search();
   outcome.counts = search.counts();
   const auto middle = std::chrono::steady_clock::now();
   outcome.search_seconds = std::chrono::duration<double>(middle - start).count();
-  if (outcome.poses.empty()) return outcome;
-  if (outcome.poses.size() > 1) outcome.runner_up = outcome.poses[1].score();
-
-  std::vector<Vector> points, normals;
-  for (const std::int32_t i : search.fine_source_probes(4000)) {
-    const Surfel& s = source.fine.surfels[std::size_t(i)];
-    points.push_back(s.position.cast<double>());
-    normals.push_back(s.normal.cast<double>());
+  if (!outcome.poses.empty()) {
+    std::vector<Vector> points, normals;
+    for (const std::int32_t i : search.fine_source_probes(4000)) {
+      const Surfel& s = source.fine.surfels[std::size_t(i)];
+      points.push_back(s.position.cast<double>());
+      normals.push_back(s.normal.cast<double>());
+    }
+    const Surfel_target surface(target.fine);
+    Refinement_options options{};
+    options.sampling_distance = (std::max)(source.spacing, target.spacing);
+    options.reach = 2 * options.sampling_distance;
+    options.tolerance = 1e-3;
+    Point_to_plane<CGAL::Sequential_tag, Surfel_target> refine(points, normals, surface, options);
+    const Rigid_motion crude = to_rigid_motion(outcome.poses.front().pose);
+    outcome.refinement = refine(crude);
+    outcome.crude = outcome.to_input(crude);
+    outcome.motion = outcome.to_input(outcome.refinement.motion);
+    outcome.residual = outcome.refinement.residual / options.sampling_distance;
+    outcome.overlap = outcome.refinement.overlap;
   }
-  const Surfel_target surface(target.fine);
-  Refinement_options options{};
-  options.sampling_distance = (std::max)(source.spacing, target.spacing);
-  options.reach = 2 * options.sampling_distance;
-  options.tolerance = 1e-3;
-  Point_to_plane<CGAL::Sequential_tag, Surfel_target> refine(points, normals, surface, options);
-  const Rigid_motion crude = to_rigid_motion(outcome.poses.front().pose);
-  outcome.refinement = refine(crude);
-  const auto to_input = [&](const Rigid_motion& m) {
-    const Rigid_motion in_input = target.own_from_input.inverse() * m * source.own_from_input;
-    return outcome.is_swapped ? in_input.inverse() : in_input;
-  };
-  outcome.crude = to_input(crude);
-  outcome.motion = to_input(outcome.refinement.motion);
+  outcome.verdict = judge_poses(outcome.poses, outcome.refinement);
   outcome.refine_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
   return outcome;
 }
