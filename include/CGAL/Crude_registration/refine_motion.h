@@ -10,6 +10,7 @@
 
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/point_to_plane.h>
+#include <CGAL/Crude_registration/internal/scan_frame.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Kd_tree.h>
@@ -133,20 +134,6 @@ private:
   typename Search::Tree m_tree;
 };
 
-// Median length of the edges, those inside a mesh counted once for each of their faces.
-inline double median_edge_length(const Flat_mesh& mesh)
-{
-  std::vector<double> lengths;
-  lengths.reserve(3 * mesh.faces.size());
-  for (const auto& face : mesh.faces)
-    for (std::size_t k = 0; k < 3; ++k)
-      lengths.push_back((mesh.points[std::size_t(face[k])] - mesh.points[std::size_t(face[(k + 1) % 3])]).stableNorm());
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + std::ptrdiff_t(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
-}
-
 // RMS distance of points from their mean.
 inline double rms_radius(const std::vector<Vector>& points)
 {
@@ -200,17 +187,39 @@ the result is the same, bit for bit
 \param source the mesh to be moved
 \param target the mesh that stays; faces of both are oriented alike, outwards or towards the sensor
 \param initial_motion maps `source` into the frame of `target`
-\param np_source, np_target optional named parameters of this package and of CGAL, among those below
+\param np_source, np_target optional sequences of \ref bgl_namedparameters "Named Parameters" among the ones listed
+below
 
-- `vertex_point_map(map)`, in either: the points of the vertices; `CGAL::vertex_point` by default
-- `maximum_distance(d)`, in `np_source`: how far apart corresponding points may lie under `initial_motion`, in the
-  unit of the coordinates; a fifth of the RMS radius of the target by default; not below two
-  sampling distances
-- `sampling_distance(s)`, in `np_source`: the sampling distance of the coarser mesh; the larger one of the median
-edge lengths by default
-- `tolerance(t)`, in `np_source`: the step, in sampling distances, that ends the iteration; 0.05 by default, a
-fraction of what range scanners resolve
-- `number_of_iterations(n)`, in `np_source`: the largest number of iterations; 50 by default
+\cgalNamedParamsBegin
+  \cgalParamNBegin{vertex_point_map}
+    \cgalParamDescription{a property map associating points to the vertices of the mesh; read from both sequences}
+    \cgalParamType{a class model of `ReadablePropertyMap` with `boost::graph_traits<Graph>::%vertex_descriptor` as key
+                   type and a `Point_3` as value type}
+    \cgalParamDefault{`boost::get(CGAL::vertex_point, graph)`}
+  \cgalParamNEnd
+  \cgalParamNBegin{maximum_distance}
+    \cgalParamDescription{how far apart corresponding points may lie under `initial_motion`, in the unit of the
+                          coordinates; not below two sampling distances; read from `np_source`}
+    \cgalParamType{double}
+    \cgalParamDefault{a fifth of the RMS radius of the target}
+  \cgalParamNEnd
+  \cgalParamNBegin{sampling_distance}
+    \cgalParamDescription{the sampling distance of the coarser mesh, in the unit of the coordinates; read from
+                          `np_source`}
+    \cgalParamType{double}
+    \cgalParamDefault{the larger one of the median edge lengths}
+  \cgalParamNEnd
+  \cgalParamNBegin{tolerance}
+    \cgalParamDescription{the step, in sampling distances, that ends the iteration; read from `np_source`}
+    \cgalParamType{double}
+    \cgalParamDefault{0.05, a fraction of what range scanners resolve}
+  \cgalParamNEnd
+  \cgalParamNBegin{number_of_iterations}
+    \cgalParamDescription{the largest number of iterations; read from `np_source`}
+    \cgalParamType{unsigned int}
+    \cgalParamDefault{50}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
 
 \return the refined motion, which maps `source` into the frame of `target`, with what tells how good it is
 
