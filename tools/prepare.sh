@@ -10,7 +10,7 @@ install_missing_packages() {
     say "No apt-get on this system: nothing is installed"
     cat <<TXT
 Needed are a C++17 compiler, CMake (3.22 or later), CGAL (5.5.1 or later, with GMP and MPFR), Eigen (3.3 or later) and
-Boost (1.74 or later, with Program_options and the Unit Test Framework); Ninja, TBB and OpenMesh are used where there.
+Boost (1.74 or later, with Program_options and the Unit Test Framework); Ninja, TBB and OpenMesh are optional.
   Debian, Ubuntu: $wanted
   Fedora:         gcc-c++ cmake ninja-build CGAL-devel eigen3-devel boost-devel tbb-devel
   Arch:           gcc cmake ninja cgal eigen boost onetbb
