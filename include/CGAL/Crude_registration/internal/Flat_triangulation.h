@@ -38,7 +38,8 @@ class Flat_triangulation
 public:
   // no edge is longer than `ratio` times the sampling distance, the one at the edge's nearer end under a perspective
   // sensor
-  Flat_triangulation(const Flat_range_image& image, const Sampling& sampling, double ratio) : m_image(image)
+  Flat_triangulation(const Flat_range_image& image, const Sampling& sampling, double ratio)
+      : m_image(image), m_has_extent(sampling.distance > 0)
   {
     const double factor = 1 + 1e-9; // an edge of just this length is not left to rounding
     const double distance = ratio * sampling.distance;
@@ -53,7 +54,7 @@ public:
   Flat_mesh operator()()
   {
     Flat_mesh mesh;
-    if (m_image.columns < 2 || m_image.rows < 2) return mesh;
+    if (!m_has_extent || m_image.columns < 2 || m_image.rows < 2) return mesh;
     code_cells();
     make_vertices(mesh);
     make_faces(mesh);
@@ -220,6 +221,7 @@ private:
   }
 
   const Flat_range_image& m_image;
+  const bool m_has_extent;                // are there adjacent samples apart from each other?
   std::vector<double> m_squared_limits;   // per sample
   std::vector<std::uint8_t> m_codes;      // per cell: the set of its triangles, by its corner A
   std::vector<std::int32_t> m_vertices;   // per sample: its first vertex
