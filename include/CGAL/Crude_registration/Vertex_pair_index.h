@@ -1,0 +1,254 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_VERTEX_PAIR_INDEX_H
+#define CGAL_CRUDE_REGISTRATION_VERTEX_PAIR_INDEX_H
+
+#include <CGAL/Crude_registration/internal/Point_grid.h>
+#include <CGAL/Crude_registration/internal/Rigid_motion.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief what a rigid motion leaves of an ordered pair of points with normals: the distance, the angles between the two
+ * normals and the line from the first point to the second, in \f$ [0, \pi] \f$, and the torsion, the signed turn about
+ * that line from the first normal to the second, in \f$ [-\pi, \pi] \f$. A mirror image has the opposite torsion.
+ */
+struct Vertex_pair_descriptor
+{
+  float length;
+  float first_angle;
+  float second_angle;
+  float torsion;
+};
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief how far two pairs may differ and still correspond, in each of the numbers that describe them.
+ */
+struct Vertex_pair_tolerance
+{
+  float length;
+  float angle;
+  float torsion;
+};
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief all ordered pairs of vertices of a mesh whose distance is in a range, so that those similar to a given pair
+ * are found without looking at the others.
+ *
+ * The pairs lie in the cells of a grid over their four descriptors, in one array sorted by counting. Memory and the
+ * time to build it are linear in the number of pairs; a query looks at the pairs in the cells it overlaps.
+ */
+class Vertex_pair_index
+{
+public:
+  /// a point or vector, `Eigen::Vector3d`
+  using Vector = internal::Vector;
+
+  /// a pair of vertices, given by their positions in the range of points
+  struct Pair
+  {
+    Vertex_pair_descriptor descriptor;
+    std::int32_t first;
+    std::int32_t second;
+  };
+
+  /// the descriptor of the pair (`p`, `q`) with unit normals `np` and `nq`. \pre `p != q`
+  static Vertex_pair_descriptor describe(const Vector& p, const Vector& np, const Vector& q, const Vector& nq)
+  {
+    const Vector d = q - p;
+    const double length = d.norm();
+    const Vector u = d / length;
+    const double cosine_p = np.dot(u), cosine_q = nq.dot(u);
+    const Vector a = np - cosine_p * u, b = nq - cosine_q * u;
+    const auto angle = [](double cosine) { return float(std::acos((std::max)(-1., (std::min)(1., cosine)))); };
+    return {float(length), angle(cosine_p), angle(cosine_q), float(std::atan2(u.dot(a.cross(b)), a.dot(b)))};
+  }
+
+  /// whether two pairs agree within a tolerance; torsions are compared on the circle.
+  static bool agree(const Vertex_pair_descriptor& a, const Vertex_pair_descriptor& b, const Vertex_pair_tolerance& t)
+  {
+    const float turn = std::abs(a.torsion - b.torsion);
+    return std::abs(a.length - b.length) <= t.length && std::abs(a.first_angle - b.first_angle) <= t.angle &&
+           std::abs(a.second_angle - b.second_angle) <= t.angle && (std::min)(turn, two_pi - turn) <= t.torsion;
+  }
+
+  Vertex_pair_index() = default;
+
+  /*!
+   * collects the pairs of `points` at distances in [`minimum_length`, `maximum_length`].
+   *
+   * \param points the vertices
+   * \param normals their unit normals; vertices with a null normal take no part. Empty: pairs are described by their
+   * distance alone, the angles are 0
+   * \param minimum_length,maximum_length the range of distances, in the unit of the points
+   * \param length_cell,angle_cell the size of the grid's cells: best about half the tolerances of the queries
+   *
+   * \throws std::invalid_argument if the ranges differ in length, or a number is not finite, negative, or, for the
+   * cells, zero.
+   */
+  Vertex_pair_index(const std::vector<Vector>& points, const std::vector<Vector>& normals, double minimum_length,
+                    double maximum_length, double length_cell, double angle_cell)
+      : m_minimum_length(float(minimum_length)), m_length_scale(float(1 / length_cell))
+  {
+    if (!normals.empty() && normals.size() != points.size())
+      throw std::invalid_argument("Vertex_pair_index: points and normals differ in length");
+    if (!(minimum_length >= 0 && maximum_length >= minimum_length) || !std::isfinite(maximum_length))
+      throw std::invalid_argument("Vertex_pair_index: minimum_length and maximum_length are no range of distances");
+    if (!(length_cell > 0 && angle_cell > 0) || !std::isfinite(length_cell) || !std::isfinite(angle_cell))
+      throw std::invalid_argument("Vertex_pair_index: length_cell and angle_cell have to be finite, above zero");
+
+    m_angle_cells = m_torsion_cells = 1;
+    if (!normals.empty()) {
+      m_angle_cells = (std::min)((std::max)(int(pi / float(angle_cell)), 1), 90);
+      m_torsion_cells = 2 * m_angle_cells;
+    }
+    m_angle_scale = float(m_angle_cells) / pi;
+    m_torsion_scale = float(m_torsion_cells) / two_pi;
+    m_length_cells = int((std::min)((maximum_length - minimum_length) / length_cell, 1000.)) + 1;
+
+    // Each unordered pair is described once: seen from its other end the angles are supplements, exchanged, and the
+    // torsion is the same.
+    std::vector<Pair> pairs;
+    if (!points.empty() && maximum_length > 0) {
+      const internal::Point_grid grid(points, maximum_length / 2);
+      const double least = minimum_length * minimum_length;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!normals.empty() && normals[i].isZero(0)) continue;
+        grid.for_each_within(points[i], maximum_length, [&](std::int32_t index, double squared_length) {
+          const auto j = std::size_t(index);
+          if (j <= i || squared_length < least || !(squared_length > 0)) return;
+          if (normals.empty()) pairs.push_back({{float(std::sqrt(squared_length)), 0, 0, 0}, std::int32_t(i), index});
+          else if (!normals[j].isZero(0))
+            pairs.push_back({describe(points[i], normals[i], points[j], normals[j]), std::int32_t(i), index});
+        });
+      }
+    }
+    m_begin.assign(std::size_t(m_length_cells) * std::size_t(m_angle_cells) * std::size_t(m_angle_cells) *
+                           std::size_t(m_torsion_cells) +
+                       1,
+                   0);
+    for (const Pair& p : pairs) {
+      ++m_begin[cell(p.descriptor) + 1];
+      ++m_begin[cell(reversed(p, normals.empty()).descriptor) + 1];
+    }
+    for (std::size_t c = 1; c < m_begin.size(); ++c) m_begin[c] += m_begin[c - 1];
+    std::vector<std::size_t> next(m_begin.begin(), m_begin.end() - 1);
+    m_pairs.resize(2 * pairs.size());
+    for (const Pair& p : pairs) {
+      const Pair r = reversed(p, normals.empty());
+      m_pairs[next[cell(p.descriptor)]++] = p;
+      m_pairs[next[cell(r.descriptor)]++] = r;
+    }
+  }
+
+  /// the number of ordered pairs
+  std::size_t size() const { return m_pairs.size(); }
+
+  /// calls `f(pair)` for each pair that agrees with `d` within `t`, in an order that depends on nothing else.
+  template <class Function>
+  void for_each_match(const Vertex_pair_descriptor& d, const Vertex_pair_tolerance& t, Function&& f) const
+  {
+    for_each_run(d, t, [&](const Pair* p, const Pair* end) {
+      for (; p != end; ++p)
+        if (agree(d, p->descriptor, t)) f(*p);
+    });
+  }
+
+  /// the number of pairs that a query would look at, found without looking at them
+  std::size_t number_of_looks(const Vertex_pair_descriptor& d, const Vertex_pair_tolerance& t) const
+  {
+    std::size_t n = 0;
+    for_each_run(d, t, [&](const Pair* p, const Pair* end) { n += std::size_t(end - p); });
+    return n;
+  }
+
+private:
+  static constexpr float pi = 3.14159265f;
+  static constexpr float two_pi = 6.28318531f;
+  static constexpr float slack = 1.00001f;
+
+  // f(begin, end) for the runs of pairs in the cells within a tolerance of `d`.
+  template <class Function>
+  void for_each_run(const Vertex_pair_descriptor& d, const Vertex_pair_tolerance& t, Function&& f) const
+  {
+    if (m_pairs.empty()) return;
+    // A little more than the tolerance: the comparison itself rounds.
+    const float length = slack * t.length + (slack - 1) * d.length, angle = slack * t.angle + (slack - 1),
+                torsion = slack * t.torsion + (slack - 1);
+    const int l0 = length_cell(d.length - length), l1 = length_cell(d.length + length);
+    const int a0 = angle_cell(d.first_angle - angle), a1 = angle_cell(d.first_angle + angle);
+    const int b0 = angle_cell(d.second_angle - angle), b1 = angle_cell(d.second_angle + angle);
+    // Torsions from t0 to t1, which may pass the end of the circle.
+    int t0 = 0, t1 = m_torsion_cells - 1;
+    if (2 * torsion * m_torsion_scale < float(m_torsion_cells - 2)) {
+      t0 = int(std::floor((d.torsion - torsion + pi) * m_torsion_scale));
+      t1 = int(std::floor((d.torsion + torsion + pi) * m_torsion_scale));
+    }
+    for (int l = l0; l <= l1; ++l)
+      for (int a = a0; a <= a1; ++a)
+        for (int b = b0; b <= b1; ++b) {
+          const std::size_t row = row_of(l, a, b);
+          const auto run = [&](int from, int to) {
+            if (from <= to)
+              f(m_pairs.data() + m_begin[row + std::size_t(from)], m_pairs.data() + m_begin[row + std::size_t(to) + 1]);
+          };
+          // The run inside the array, and what passes its ends.
+          run((std::max)(t0, 0), (std::min)(t1, m_torsion_cells - 1));
+          if (t0 < 0) run(t0 + m_torsion_cells, m_torsion_cells - 1);
+          if (t1 >= m_torsion_cells) run(0, t1 - m_torsion_cells);
+        }
+  }
+
+  static Pair reversed(const Pair& p, bool without_angles)
+  {
+    const Vertex_pair_descriptor& d = p.descriptor;
+    if (without_angles) return {d, p.second, p.first};
+    return {{d.length, pi - d.second_angle, pi - d.first_angle, d.torsion}, p.second, p.first};
+  }
+
+  static int clamped(float x, int n) { return x > 0 ? (x < float(n) ? int(x) : n - 1) : 0; }
+  int length_cell(float x) const { return clamped((x - m_minimum_length) * m_length_scale, m_length_cells); }
+  int angle_cell(float x) const { return clamped(x * m_angle_scale, m_angle_cells); }
+  std::size_t row_of(int l, int a, int b) const
+  {
+    return ((std::size_t(l) * std::size_t(m_angle_cells) + std::size_t(a)) * std::size_t(m_angle_cells) +
+            std::size_t(b)) *
+           std::size_t(m_torsion_cells);
+  }
+  std::size_t cell(const Vertex_pair_descriptor& d) const
+  {
+    return row_of(length_cell(d.length), angle_cell(d.first_angle), angle_cell(d.second_angle)) +
+           std::size_t(clamped((d.torsion + pi) * m_torsion_scale, m_torsion_cells));
+  }
+
+  float m_minimum_length = 0, m_length_scale = 1, m_angle_scale = 1, m_torsion_scale = 1;
+  int m_length_cells = 1, m_angle_cells = 1, m_torsion_cells = 1;
+  std::vector<std::size_t> m_begin; // of each cell in m_pairs
+  std::vector<Pair> m_pairs;
+};
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_VERTEX_PAIR_INDEX_H

@@ -1,0 +1,515 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_MATCH_TRIHEDRA_H
+#define CGAL_CRUDE_REGISTRATION_MATCH_TRIHEDRA_H
+
+#include <CGAL/Crude_registration/Spatial_trihedron.h>
+#include <CGAL/Crude_registration/Vertex_pair_index.h>
+#include <CGAL/Crude_registration/internal/Curvature_tensors.h>
+#include <CGAL/Crude_registration/internal/Matching_vertices.h>
+#include <CGAL/Crude_registration/internal/Point_grid.h>
+#include <CGAL/Crude_registration/internal/scan_frame.h>
+#include <CGAL/Crude_registration/named_parameters.h>
+#include <CGAL/Crude_registration/principal_curvatures.h>
+#include <CGAL/Crude_registration/rigid_motion.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Where points are near, as a bit for each cell of a grid: false only where none is within the reach. Cells get larger
+// than asked for where they would outnumber the points 512 to one.
+class Occupancy
+{
+public:
+  Occupancy() = default;
+
+  Occupancy(const std::vector<Vector>& points, double cell, double reach)
+  {
+    if (points.empty()) return;
+    Vector low = points.front(), high = low;
+    for (const Vector& p : points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    m_low = low.array() - reach;
+    const Vector size = high - low + Vector::Constant(2 * reach);
+    while (((size / cell).array().floor() + 1).prod() > 512. * double(points.size())) cell *= 1.25;
+    m_scale = 1 / cell;
+    for (int i = 0; i < 3; ++i) m_cells[std::size_t(i)] = int(size[i] * m_scale) + 1;
+    m_bits.assign(std::size_t(m_cells[0]) * std::size_t(m_cells[1]) * std::size_t(m_cells[2]) / 64 + 1, 0);
+    for (const Vector& p : points) {
+      const Vector from = (p.array() - reach - m_low.array()) * m_scale,
+                   to = (p.array() + reach - m_low.array()) * m_scale;
+      int first[3], last[3];
+      for (int i = 0; i < 3; ++i) {
+        first[i] = (std::max)(0, int(std::floor(from[i])));
+        last[i] = (std::min)(m_cells[std::size_t(i)] - 1, int(to[i]));
+      }
+      for (int z = first[2]; z <= last[2]; ++z)
+        for (int y = first[1]; y <= last[1]; ++y)
+          for (int x = first[0]; x <= last[0]; ++x)
+            if (distance_to_cell(p, x, y, z) <= reach)
+              m_bits[bit(x, y, z) >> 6] |= std::uint64_t(1) << (bit(x, y, z) & 63);
+    }
+  }
+
+  bool is_near(const Vector& p) const
+  {
+    const double x = (p[0] - m_low[0]) * m_scale, y = (p[1] - m_low[1]) * m_scale, z = (p[2] - m_low[2]) * m_scale;
+    if (!(x >= 0 && y >= 0 && z >= 0 && x < m_cells[0] && y < m_cells[1] && z < m_cells[2])) return false;
+    const std::size_t b = bit(int(x), int(y), int(z));
+    return (m_bits[b >> 6] >> (b & 63)) & 1;
+  }
+
+private:
+  std::size_t bit(int x, int y, int z) const
+  {
+    return (std::size_t(z) * std::size_t(m_cells[1]) + std::size_t(y)) * std::size_t(m_cells[0]) + std::size_t(x);
+  }
+
+  double distance_to_cell(const Vector& p, int x, int y, int z) const
+  {
+    const Vector low = m_low + Vector(x, y, z) / m_scale, high = m_low + Vector(x + 1, y + 1, z + 1) / m_scale;
+    // A little less than the distance, so that rounding leaves no cell out.
+    return 0.999999 * (p - p.cwiseMax(low).cwiseMin(high)).norm();
+  }
+
+  Vector m_low = Vector::Zero();
+  double m_scale = 1;
+  std::array<int, 3> m_cells{};
+  std::vector<std::uint64_t> m_bits;
+};
+
+struct Match_tolerances
+{
+  double length = 0;       // of a vertex's place: about the distance of neighbouring vertices
+  double angle = 0;        // of a normal, radians
+  double curvature = 0;    // of either curvature, 1/length
+  bool use_normals = true; // false: the paper's descriptor, curvatures alone
+};
+
+// A trihedron of S and the vertices C, c1, c2, c3 of D that may correspond to its V, v1, v2, v3. `motion` maps S to D
+// in the least squares sense over the four pairs, with the root mean square distance `residual`.
+struct Candidate_motion
+{
+  Rigid_motion motion;
+  std::int32_t trihedron; // position in the range of trihedra
+  std::array<std::int32_t, 4> vertices;
+  double residual;
+};
+
+// The exhaustive search of section 6 of the paper for the trihedra of S in the vertices of D: each vertex of D with
+// matching curvatures is tried for V, each on the sphere around it for v1, each on the circle around both for v2
+// (DARCES: two distances), each near the place that v3 has relative to the triangle for v3.
+//
+// With normals the pairs for (V, v1) are those of similar signed angles, too, the two normals tell the part of the
+// circle on which c2 lies, and the normals of c2 and c3 have to agree with those of v2 and v3 as turned by the frames
+// of the pair and of the triangle.
+class Trihedron_matching
+{
+public:
+  // What a thread needs for itself.
+  class Workspace
+  {
+    friend class Trihedron_matching;
+    std::vector<std::uint64_t> tried_for; // the pair for which each vertex of D was last tried as c2
+    std::uint64_t pairs = 0;
+    std::vector<std::array<double, 2>> turns;
+  };
+
+  // `shortest`, `longest`: of the arms of the trihedra that will be asked for. `s` is kept by reference. Vertices of D
+  // take part if they are described, on the border or not: the border of D may run through the inside of S.
+  Trihedron_matching(const Matching_vertices& s, const Matching_vertices& d, double shortest, double longest,
+                     const Match_tolerances& tolerances)
+      : m_s(s), m_tolerances(tolerances), m_least_cosine(std::cos((std::min)(tolerances.angle, CGAL_PI)))
+  {
+    for (std::size_t i = 0; i < d.points.size(); ++i) {
+      if (d.normals[i].isZero(0)) continue;
+      m_vertices.push_back(std::int32_t(i));
+      m_points.push_back(d.points[i]);
+      m_normals.push_back(d.normals[i]);
+      m_curvatures.push_back({d.minimum_curvatures[i], d.maximum_curvatures[i]});
+    }
+    const double least = (std::max)(0., shortest - tolerances.length), most = longest + tolerances.length;
+    m_index = Vertex_pair_index(m_points, tolerances.use_normals ? m_normals : std::vector<Vector>(), least, most,
+                                tolerances.length / 2, tolerances.use_normals ? tolerances.angle / 2 : CGAL_PI);
+    m_grid = Point_grid(m_points, 2 * tolerances.length);
+    m_reach = 1.4143 * tolerances.length;
+    m_occupancy = Occupancy(m_points, tolerances.length, m_reach);
+  }
+
+  // output(vertices of D, places of the trihedron's vertices, places of those of D) for each correspondence.
+  template <class Output>
+  void operator()(const Spatial_trihedron& trihedron, Workspace& work, Output&& output) const
+  {
+    work.tried_for.resize(m_points.size(), 0);
+    // The pairs that the first arm finds are looked at one by one: the first is the arm that finds fewest.
+    std::array<std::int32_t, 4> s = {trihedron.origin, trihedron.ends[0], trihedron.ends[1], trihedron.ends[2]};
+    std::size_t first = 1, fewest = std::size_t(-1);
+    for (std::size_t i = 1; i < 4; ++i) {
+      const Pair_frame arm = source_frame(s[0], s[i]);
+      const std::size_t looks = m_index.number_of_looks(descriptor(s[0], s[i]), pair_tolerance(arm.lever));
+      if (looks < fewest) {
+        fewest = looks;
+        first = i;
+      }
+    }
+    if (fewest == 0) return;
+    std::rotate(s.begin() + 1, s.begin() + std::ptrdiff_t(first), s.end());
+    const auto undo = [&](const auto& a) {
+      auto result = a;
+      std::rotate(result.begin() + 1, result.end() - std::ptrdiff_t(first - 1), result.end());
+      return result;
+    };
+
+    std::array<Vector, 4> x, normal;
+    for (std::size_t i = 0; i < 4; ++i) {
+      x[i] = m_s.points[std::size_t(s[i])];
+      normal[i] = m_s.normals[std::size_t(s[i])];
+    }
+    const Orientation hand = handedness(x);
+    if (hand == COPLANAR) return;
+    const double tolerance = m_tolerances.length;
+    const Vector a1 = x[1] - x[0], a2 = x[2] - x[0], a3 = x[3] - x[0];
+
+    // The frame of the pair (V, v1), and v2 in it: how far along the line from its middle, and where around it.
+    const Pair_frame frame(x[0], normal[0], x[1], normal[1], m_tolerances.use_normals);
+    const double along = frame.u.dot(a2 - a1 / 2), across_v = frame.v.dot(a2), across_w = frame.w.dot(a2);
+    const double radius = std::hypot(across_v, across_w);
+    const Vector second_normal = frame.local(normal[2]);
+    // The part of the circle that is in question, in steps of at most twice the tolerance: what is within the tolerance
+    // of a step's part of the circle is within sqrt(2) times the tolerance of its middle.
+    const double uncertainty = frame.uncertainty(m_tolerances.angle), least_cosine = std::cos(uncertainty);
+    const double steps = (std::max)(1., std::ceil(uncertainty * radius / tolerance));
+    work.turns.clear();
+    for (double i = 0; i < steps; ++i) {
+      const double turn = uncertainty * ((2 * i + 1) / steps - 1);
+      work.turns.push_back({std::cos(turn), std::sin(turn)});
+    }
+
+    // v3 relative to the triangle (V, v1, v2): barycentric coordinates of its projection, and signed height.
+    const Vector cross = a1.cross(a2);
+    const double area = cross.norm();
+    const double beta = cross.dot(a3.cross(a2)) / (area * area), gamma = cross.dot(a1.cross(a3)) / (area * area);
+    const double height = cross.dot(a3) / area;
+    Matrix triangle_frame;
+    triangle_frame << frame.u, (cross / area).cross(frame.u), cross / area;
+    const Vector third_normal = triangle_frame.transpose() * normal[3];
+
+    std::array<Vector, 4> y;
+    m_index.for_each_match(
+        descriptor(s[0], s[1]), pair_tolerance(frame.lever), [&](const Vertex_pair_index::Pair& pair) {
+          const auto c0 = std::size_t(pair.first), c1 = std::size_t(pair.second);
+          if (!curvatures_agree(s[0], c0) || !curvatures_agree(s[1], c1)) return;
+          y[0] = m_points[c0];
+          y[1] = m_points[c1];
+          const Pair_frame image(y[0], m_normals[c0], y[1], m_normals[c1], m_tolerances.use_normals);
+          const Vector foot = 0.5 * (y[0] + y[1]) + along * image.u;
+          const Vector towards = across_v * image.v + across_w * image.w,
+                       sideways = across_v * image.w - across_w * image.v;
+          const Vector expected_second = image.world(second_normal);
+          const Vector b1 = y[1] - y[0];
+          ++work.pairs;
+          for (const auto& [cosine, sine] : work.turns) {
+            const Vector place = foot + cosine * towards + sine * sideways;
+            if (!m_occupancy.is_near(place)) continue;
+            m_grid.for_each_within(place, m_reach, [&](std::int32_t index2, double) {
+              const auto c2 = std::size_t(index2);
+              if (work.tried_for[c2] == work.pairs) return;
+              work.tried_for[c2] = work.pairs;
+              y[2] = m_points[c2];
+              // Within the tolerance of the circle, and in its part that is in question.
+              const Vector e = y[2] - foot;
+              const double axial = e.dot(image.u), radial = std::sqrt((std::max)(0., e.squaredNorm() - axial * axial));
+              if (axial * axial + (radial - radius) * (radial - radius) > tolerance * tolerance ||
+                  !(e.dot(towards) >= least_cosine * radial * radius))
+                return;
+              if (!normals_agree(c2, expected_second) || !curvatures_agree(s[2], c2)) return;
+              const Vector b2 = y[2] - y[0];
+              const Vector image_cross = b1.cross(b2);
+              const double image_area = image_cross.norm();
+              if (!(image_area > 0)) return;
+              // p = x2 + n2 d
+              const Vector n = image_cross / image_area;
+              const Vector p = y[0] + beta * b1 + gamma * b2 + height * n;
+              Matrix image_frame;
+              image_frame << image.u, n.cross(image.u), n;
+              const Vector expected_third = image_frame * third_normal;
+              m_grid.for_each_within(p, tolerance, [&](std::int32_t index3, double) {
+                const auto c3 = std::size_t(index3);
+                if (!normals_agree(c3, expected_third) || !curvatures_agree(s[3], c3)) return;
+                y[3] = m_points[c3];
+                // A small trihedron's place for v3 may reach to the other side of the plane: a mirror image.
+                if (handedness(y) != hand) return;
+                output(
+                    undo(std::array<std::int32_t, 4>{m_vertices[c0], m_vertices[c1], m_vertices[c2], m_vertices[c3]}),
+                    undo(x), undo(y));
+              });
+            });
+          }
+        });
+  }
+
+  std::size_t number_of_pairs() const { return m_index.size(); }
+
+private:
+  // Axes on a pair of points: u along the line, v towards the mean of the normals, w = u x v; without normals v is
+  // any. `lever`: the smaller sine of the angles between the line and the normals.
+  struct Pair_frame
+  {
+    Pair_frame(const Vector& p, const Vector& np, const Vector& q, const Vector& nq, bool use_normals)
+    {
+      u = q - p;
+      u /= u.norm();
+      if (use_normals) {
+        const double cp = np.dot(u), cq = nq.dot(u);
+        lever = std::sqrt((std::max)(0., 1 - (std::max)(cp * cp, cq * cq)));
+        v = np + nq - (cp + cq) * u;
+        spread = v.norm();
+      }
+      if (spread > 1e-6) v /= spread;
+      else v = u.unitOrthogonal();
+      w = u.cross(v);
+    }
+
+    Vector local(const Vector& a) const { return Vector(u.dot(a), v.dot(a), w.dot(a)); }
+    Vector world(const Vector& a) const { return a[0] * u + a[1] * v + a[2] * w; }
+
+    // By how much v may be turned about u when the normals are off by `angle`.
+    double uncertainty(double angle) const { return 2 * angle < CGAL_PI * spread ? 2 * angle / spread : CGAL_PI; }
+
+    Vector u, v, w;
+    double lever = 0, spread = 0;
+  };
+
+  Pair_frame source_frame(std::int32_t v, std::int32_t w) const
+  {
+    return Pair_frame(m_s.points[std::size_t(v)], m_s.normals[std::size_t(v)], m_s.points[std::size_t(w)],
+                      m_s.normals[std::size_t(w)], m_tolerances.use_normals);
+  }
+
+  Vertex_pair_descriptor descriptor(std::int32_t v, std::int32_t w) const
+  {
+    const Vector &p = m_s.points[std::size_t(v)], &q = m_s.points[std::size_t(w)];
+    if (!m_tolerances.use_normals) return {float((q - p).norm()), 0, 0, 0};
+    return Vertex_pair_index::describe(p, m_s.normals[std::size_t(v)], q, m_s.normals[std::size_t(w)]);
+  }
+
+  // A normal that is off by an angle turns the torsion by that angle over the sine of the normal's angle with the line.
+  Vertex_pair_tolerance pair_tolerance(double lever) const
+  {
+    const double angle = m_tolerances.angle;
+    return {float(m_tolerances.length), float(angle), float(angle < CGAL_PI * lever ? angle / lever : CGAL_PI)};
+  }
+
+  bool curvatures_agree(std::int32_t s, std::size_t d) const
+  {
+    return std::abs(m_s.minimum_curvatures[std::size_t(s)] - m_curvatures[d][0]) <= m_tolerances.curvature &&
+           std::abs(m_s.maximum_curvatures[std::size_t(s)] - m_curvatures[d][1]) <= m_tolerances.curvature;
+  }
+
+  bool normals_agree(std::size_t d, const Vector& expected) const
+  {
+    return !m_tolerances.use_normals || m_normals[d].dot(expected) >= m_least_cosine;
+  }
+
+  const Matching_vertices& m_s;
+  Match_tolerances m_tolerances;
+  double m_least_cosine;
+  // The described vertices of D.
+  std::vector<std::int32_t> m_vertices;
+  std::vector<Vector> m_points, m_normals;
+  std::vector<std::array<double, 2>> m_curvatures;
+  Vertex_pair_index m_index;
+  Point_grid m_grid;
+  double m_reach;
+  Occupancy m_occupancy;
+};
+
+inline std::array<double, 2> range_of_arms(const std::vector<Vector>& points,
+                                           const std::vector<Spatial_trihedron>& trihedra)
+{
+  double least = (std::numeric_limits<double>::max)(), most = 0;
+  for (const Spatial_trihedron& t : trihedra) {
+    const double squared = (points[std::size_t(t.ends[0])] - points[std::size_t(t.origin)]).squaredNorm();
+    least = (std::min)(least, squared);
+    most = (std::max)(most, squared);
+  }
+  return {std::sqrt((std::min)(least, most)), std::sqrt(most)};
+}
+
+// The candidate of a correspondence; false where its points determine no motion.
+inline bool candidate_motion(std::int32_t trihedron, const std::array<std::int32_t, 4>& vertices,
+                             const std::array<Vector, 4>& x, const std::array<Vector, 4>& y,
+                             Candidate_motion& candidate)
+{
+  const auto motion = least_squares_motion(x.data(), y.data(), nullptr, 4);
+  if (!motion) return false;
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum += ((*motion)(x[i]) - y[i]).squaredNorm();
+  candidate = {*motion, trihedron, vertices, std::sqrt(sum / 4)};
+  return true;
+}
+
+// All candidates for some trihedra of S, in the order of the trihedra.
+inline std::vector<Candidate_motion> match_trihedra(const Matching_vertices& s,
+                                                    const std::vector<Spatial_trihedron>& trihedra,
+                                                    const Matching_vertices& d, const Match_tolerances& tolerances)
+{
+  std::vector<Candidate_motion> candidates;
+  const std::array<double, 2> arms = range_of_arms(s.points, trihedra);
+  const Trihedron_matching matching(s, d, arms[0], arms[1], tolerances);
+  Trihedron_matching::Workspace work;
+  for (std::size_t i = 0; i < trihedra.size(); ++i)
+    matching(trihedra[i], work, [&](const auto& vertices, const auto& x, const auto& y) {
+      Candidate_motion candidate;
+      if (candidate_motion(std::int32_t(i), vertices, x, y, candidate)) candidates.push_back(candidate);
+    });
+  return candidates;
+}
+
+// The vertices of a simplified mesh as the parameters describe them, or as the mesh itself does.
+template <class FaceGraph, class NamedParameters>
+Matching_vertices given_matching_vertices(const FaceGraph& graph, const Flat_mesh& mesh, const NamedParameters& np,
+                                          const char* function, const char* argument)
+{
+  Matching_vertices result;
+  result.points = mesh.points;
+  const std::size_t n = mesh.points.size();
+  if constexpr (is_given<NamedParameters, internal_np::vertex_normal_map_t>) {
+    const auto map = parameter(np, internal_np::vertex_normal_map, 0);
+    for (auto v : vertices(graph)) {
+      const auto& m = get(map, v);
+      result.normals.push_back(unit_or_zero(Vector(to_double(m.x()), to_double(m.y()), to_double(m.z()))));
+    }
+  } else result.normals = vertex_normals(mesh);
+  if constexpr (is_given<NamedParameters, internal_np::curvature_map_t>) {
+    const auto map = parameter(np, internal_np::curvature_map, 0);
+    for (auto v : vertices(graph)) {
+      const auto& c = get(map, v);
+      result.minimum_curvatures.push_back(to_double(c.minimum));
+      result.maximum_curvatures.push_back(to_double(c.maximum));
+    }
+  } else {
+    const Curvature_field field = curvature_tensors(mesh, result.normals);
+    for (const Curvature_tensor& t : field.tensors) {
+      result.minimum_curvatures.push_back(t.minimum());
+      result.maximum_curvatures.push_back(t.maximum());
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (!result.normals[i].allFinite() || !std::isfinite(result.minimum_curvatures[i]) ||
+        !std::isfinite(result.maximum_curvatures[i]))
+      throw std::invalid_argument(std::string(function) + ": vertex " + std::to_string(i) + " of " + argument +
+                                  " has a normal or a curvature that is not finite");
+  const std::vector<std::uint8_t> borders = border_flags(mesh);
+  result.inside.resize(n);
+  for (std::size_t i = 0; i < n; ++i) result.inside[i] = !borders[i] && !result.normals[i].isZero(0);
+  return result;
+}
+
+} // namespace internal
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief a trihedron of the source and the four vertices of the target that may correspond to its own.
+ *
+ * \tparam Kernel a model of `Kernel`
+ */
+template <class Kernel>
+struct Trihedron_match
+{
+  Spatial_trihedron source;                    ///< \f$ V, v_1, v_2, v_3 \f$
+  Spatial_trihedron target;                    ///< \f$ C, c_1, c_2, c_3 \f$
+  Aff_transformation_3<Kernel> transformation; ///< maps the source into the frame of the target: least squares
+  double residual;                             ///< root mean square distance of the four pairs under it
+};
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief searches the vertices of a simplified mesh exhaustively for what may correspond to the spatial trihedra of
+ * another one: section 6 of the paper.
+ *
+ * For each trihedron of `source` (see `spatial_trihedra()`) every vertex of `target` is tried for \f$ V \f$, those on
+ * the sphere around it for \f$ v_1 \f$, those on the circle at the distances of \f$ v_2 \f$ from both for
+ * \f$ v_2 \f$, and those near \f$ p = x_2 + n_2 d \f$ for \f$ v_3 \f$: the place with the barycentric coordinates and
+ * the height that \f$ v_3 \f$ has relative to the triangle \f$ V v_1 v_2 \f$. Corresponding vertices have similar
+ * minimal and maximal curvatures. As curvatures alone leave many candidates to a scan's noise, their normals agree,
+ * too: those of the pair \f$ (V, v_1) \f$ by their signed angles with the line between them, those of \f$ v_2 \f$ and
+ * \f$ v_3 \f$ by where the vertices found before would turn them. Whether a correspondence is the mirror image of the
+ * trihedron is decided by CGAL's exact predicates.
+ *
+ * \tparam SourceGraph, TargetGraph models of `FaceListGraph`
+ * \tparam NamedParameters1, NamedParameters2 sequences of \ref bgl_namedparameters "Named Parameters"
+ *
+ * \param source the \f$ S \f$-mesh, simplified
+ * \param target the \f$ D \f$-mesh, simplified
+ * \param np_source, np_target optional sequences of named parameters among the ones listed below:
+ *   - `vertex_point_map`, in either: default `get(CGAL::vertex_point, mesh)`
+ *   - `vertex_normal_map`, in either: normals of the vertices, best those of the dense mesh; default: of the mesh
+ *   - `curvature_map`, in either: a map from vertices to `Principal_curvatures`, best those of the dense mesh averaged
+ *     over a neighbourhood; default: of the mesh
+ *   - `minimum_extent`, `maximum_extent`, `viewing_direction`, `viewpoint`, in `np_source`: as for `spatial_trihedra()`
+ *   - `tolerance`, in `np_source`: how far vertices that correspond may lie from the same place of the surface, a
+ *     length; default: 0.7 times the median edge length of `target`. Normals may differ by 15 degrees, curvatures by
+ *     0.15 divided by this tolerance
+ *
+ * \return the matches in the order of the trihedra
+ *
+ * \throws std::invalid_argument if a face of a mesh is not a triangle, a coordinate, normal or curvature is not finite,
+ * the tolerance is not a finite number above zero, or not \f$ 0 \le f_1 < f_2 \f$.
+ */
+template <class Kernel = Exact_predicates_inexact_constructions_kernel, class SourceGraph, class TargetGraph,
+          class NamedParameters1 = parameters::Default_named_parameters,
+          class NamedParameters2 = parameters::Default_named_parameters>
+std::vector<Trihedron_match<Kernel>> match_trihedra(const SourceGraph& source, const TargetGraph& target,
+                                                    const NamedParameters1& np_source = parameters::default_values(),
+                                                    const NamedParameters2& np_target = parameters::default_values())
+{
+  const std::vector<Spatial_trihedron> trihedra = spatial_trihedra(source, np_source);
+  const internal::Flat_mesh s_mesh = internal::to_flat_mesh(source, np_source, "match_trihedra", "source");
+  const internal::Flat_mesh d_mesh = internal::to_flat_mesh(target, np_target, "match_trihedra", "target");
+  internal::Match_tolerances tolerances;
+  tolerances.length = internal::positive_parameter(
+      np_source, internal_np::tolerance,
+      // Of a mesh without faces nothing is asked.
+      (std::max)(0.7 * internal::median_edge_length(d_mesh), (std::numeric_limits<double>::min)()), "match_trihedra",
+      "tolerance");
+  tolerances.angle = 15 * CGAL_PI / 180;
+  tolerances.curvature = 0.15 / tolerances.length;
+
+  std::vector<Trihedron_match<Kernel>> matches;
+  for (const internal::Candidate_motion& c : internal::match_trihedra(
+           internal::given_matching_vertices(source, s_mesh, np_source, "match_trihedra", "source"), trihedra,
+           internal::given_matching_vertices(target, d_mesh, np_target, "match_trihedra", "target"), tolerances))
+    matches.push_back({trihedra[std::size_t(c.trihedron)],
+                       {c.vertices[0], {c.vertices[1], c.vertices[2], c.vertices[3]}},
+                       internal::to_aff_transformation<Kernel>(c.motion),
+                       c.residual});
+  return matches;
+}
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_MATCH_TRIHEDRA_H
