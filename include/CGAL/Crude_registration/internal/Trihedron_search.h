@@ -8,7 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_TRIHEDRON_SEARCH_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_TRIHEDRON_SEARCH_H
 
-#include <CGAL/Crude_registration/evaluate_motions.h>
+#include <CGAL/Crude_registration/internal/Motion_evaluation.h>
 #include <CGAL/Crude_registration/match_trihedra.h>
 
 #include <CGAL/for_each.h>

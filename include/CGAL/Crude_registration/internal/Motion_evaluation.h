@@ -5,8 +5,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_CRUDE_REGISTRATION_EVALUATE_MOTIONS_H
-#define CGAL_CRUDE_REGISTRATION_EVALUATE_MOTIONS_H
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MOTION_EVALUATION_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_MOTION_EVALUATION_H
 
 #include <CGAL/Crude_registration/internal/Counter_random.h>
 #include <CGAL/Crude_registration/internal/Matching_vertices.h>
@@ -220,4 +220,4 @@ private:
 } // namespace Crude_registration
 } // namespace CGAL
 
-#endif // CGAL_CRUDE_REGISTRATION_EVALUATE_MOTIONS_H
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_MOTION_EVALUATION_H
