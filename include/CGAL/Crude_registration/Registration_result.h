@@ -98,6 +98,7 @@ public:
     Transformation transformation = Transformation(IDENTITY);
     Transformation crude_transformation = Transformation(IDENTITY);
     double confidence = 0;
+    double score = 0;
     double overlap = 0;
     double residual = 0;
     double free_space_violations = 0;
@@ -138,6 +139,10 @@ public:
 
   /// The probability, in [0,1], that transformation() is right.
   double confidence() const { return m_parts.confidence; }
+
+  /// What transformation() scored, comparable with the scores of the runners-up: the share of the surface that it
+  /// brings together to within the scans' noise, less twice what violates free space.
+  double score() const { return m_parts.score; }
 
   /// The share of the source's surface that has the target close by, with its normal, under transformation().
   double overlap() const { return m_parts.overlap; }

@@ -48,7 +48,10 @@ Registration_result<Kernel> to_result(const Registration_outcome& outcome)
   }
   parts.overlap = outcome.overlap;
   parts.residual = outcome.residual;
-  if (!outcome.poses.empty()) parts.free_space_violations = double(outcome.poses.front().violations);
+  if (!outcome.poses.empty()) {
+    parts.score = double(outcome.poses.front().score());
+    parts.free_space_violations = double(outcome.poses.front().violations);
+  }
   for (std::size_t i = parts.status == NOT_REGISTERED ? 0 : 1; i < outcome.poses.size(); ++i)
     parts.runners_up.push_back({to_aff_transformation<Kernel>(outcome.to_input(to_rigid_motion(outcome.poses[i].pose))),
                                 double(outcome.poses[i].score())});

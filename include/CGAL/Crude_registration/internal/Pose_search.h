@@ -228,6 +228,9 @@ public:
   {
     m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
     m_extent = float((std::min)(source.extent, target.extent));
+    // About the noise of the worst tenth of surfels; a floor, as sampling leaves something even of scans without noise.
+    m_coarse_tolerance = tolerance(source.coarse, target.coarse, 2.7f, 1.75f);
+    m_fine_tolerance = tolerance(source.fine, target.fine, 4.3f, 2.4f);
     std::vector<Vector> points;
     points.reserve(source.coarse.surfels.size());
     for (const Surfel& s : source.coarse.surfels) points.push_back(s.position.cast<double>());
@@ -298,8 +301,9 @@ public:
       for (Candidate& c : candidates) {
         for (float reach : reaches)
           if (refine_step(m_source.coarse, indices, m_target.coarse, {reach * m_spacing, 0.7f}, c.pose) < 6) break;
-        const Agreement a = agreement(m_source, m_source.coarse, indices, m_target, m_target.coarse, m_target_probes,
-                                      c.pose, 0.35f * m_spacing, 0.85f, 1.2f * m_spacing);
+        const Agreement a =
+            agreement(m_source, m_source.coarse, indices, m_target, m_target.coarse, m_target_probes, c.pose,
+                      m_coarse_tolerance.distance, m_coarse_tolerance.minimal_cosine, 1.2f * m_spacing);
         c.score = a.overlap - 1.5f * a.violations;
       }
       sort_by_score(candidates);
@@ -325,7 +329,8 @@ public:
       if (refine_step(m_source.fine, m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
     const Agreement a =
         agreement(m_source, m_source.fine, m_fine_source_probes, m_target, m_target.fine, m_fine_target_probes, pose,
-                  0.35f * spacing, 0.906f, 3 * float((std::max)(m_source.spacing, m_target.spacing)));
+                  m_fine_tolerance.distance, m_fine_tolerance.minimal_cosine,
+                  3 * float((std::max)(m_source.spacing, m_target.spacing)));
     return {pose, a.overlap, a.violations};
   }
 
@@ -338,9 +343,41 @@ private:
     std::uint8_t scale;
   };
 
+  struct Tolerance
+  {
+    float distance, minimal_cosine;
+  };
+
+  static Tolerance tolerance(const Surfel_level& a, const Surfel_level& b, float times_height, float times_normal)
+  {
+    const float height = times_height * (std::max)(a.height_noise, b.height_noise),
+                turn = times_normal * (std::max)(a.normal_noise, b.normal_noise);
+    return {(std::max)(a.spacing, b.spacing) * (std::min)((std::max)(height, 0.05f), 1.f),
+            std::cos((std::min)((std::max)(turn, 0.2f), 0.7f))};
+  }
+
+  // Surfels that stand for the whole scan, in an order such that each beginning does: by turns from each direction of
+  // the normal (Rusinkiewicz and Levoy 2001, normal-space sampling), so that a wall or a floor, whatever its size, does
+  // not outvote all else.
   static std::vector<std::int32_t> probes(const Surfel_level& level, std::size_t n)
   {
-    return first(shuffled(level.surfels.size(), 2), n);
+    constexpr int side = 5; // cells along the edge of a cube's face
+    std::vector<std::vector<std::int32_t>> bins(6 * side * side);
+    for (const std::int32_t i : shuffled(level.surfels.size(), 2)) {
+      const Vector_f& normal = level.surfels[std::size_t(i)].normal;
+      int axis;
+      const float largest = normal.cwiseAbs().maxCoeff(&axis);
+      const auto cell = [&](float x) { return (std::min)(int((x / largest + 1) * 0.5f * side), side - 1); };
+      const int face = 2 * axis + (normal[axis] < 0);
+      bins[std::size_t((face * side + cell(normal[(axis + 1) % 3])) * side + cell(normal[(axis + 2) % 3]))].push_back(
+          i);
+    }
+    std::vector<std::int32_t> order;
+    n = (std::min)(n, level.surfels.size());
+    for (std::size_t turn = 0; order.size() < n; ++turn)
+      for (const auto& bin : bins)
+        if (turn < bin.size() && order.size() < n) order.push_back(bin[turn]);
+    return order;
   }
 
   static std::vector<std::int32_t> first(std::vector<std::int32_t> indices, std::size_t n)
@@ -521,6 +558,7 @@ private:
   const Search_parameters m_parameters;
   Observer m_observer;
   float m_spacing = 0, m_extent = 0;
+  Tolerance m_coarse_tolerance, m_fine_tolerance;
   Point_grid m_grid;
   std::vector<std::int32_t> m_origins, m_source_probes, m_target_probes, m_fine_source_probes, m_fine_target_probes;
   std::vector<std::pair<float, Surfel_pair_index>> m_indices;

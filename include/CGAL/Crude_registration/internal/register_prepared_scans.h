@@ -58,6 +58,7 @@ struct Registration_outcome
   Rigid_motion crude, motion;              // target from source, in the frames of the input
   Refinement refinement;                   // in own frames
   double overlap = 0, residual = 0;
+  double misfit = 0;                      // the residual in units of the scans' own noise
   Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
   Verdict verdict;
   Search_counts counts;
@@ -124,6 +125,12 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, const Refineme
   return verdict;
 }
 
+// The noise of a level, in the unit of length; what sampling alone makes up is at least a fiftieth of the spacing.
+inline double noise(const Surfel_level& level)
+{
+  return double(level.spacing) * (std::max)(double(level.height_noise), 0.02);
+}
+
 // a and b are source and target.
 inline Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepared_scan& b,
                                                     const Search_parameters& parameters = {})
@@ -164,6 +171,7 @@ inline Registration_outcome register_prepared_scans(const Prepared_scan& a, cons
     outcome.motion = outcome.to_input(outcome.refinement.motion);
     outcome.residual = outcome.refinement.residual / options.sampling_distance;
     outcome.overlap = outcome.refinement.overlap;
+    outcome.misfit = outcome.refinement.residual / (std::max)(noise(source.fine), noise(target.fine));
   }
   outcome.verdict = judge_poses(outcome.poses, outcome.refinement);
   outcome.refine_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();

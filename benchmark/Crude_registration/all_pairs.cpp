@@ -1,0 +1,256 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Registers pairs of scans and writes one row a pair.
+//
+// Every scan is moved by a rigid motion of its own before anything else, and the motion is undone in the written
+// answer, so that no start and no axis helps. Each scan is prepared once. `seconds` is what a pair costs from samples
+// in memory: both preparations and the search; `prepare_seconds` and `pair_seconds` are its parts.
+
+#include <CGAL/Crude_registration/IO/read_scan.h>
+#include <CGAL/Crude_registration/internal/atomic_file.h>
+#include <CGAL/Crude_registration/register_scans.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/transform.h>
+
+#include <Eigen/Geometry>
+
+#include <boost/program_options.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace CR = CGAL::Crude_registration;
+namespace po = boost::program_options;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Motion = CGAL::Aff_transformation_3<Kernel>;
+
+namespace {
+
+struct Pair
+{
+  std::string source, target;
+};
+
+struct Moved_scan
+{
+  std::optional<CR::Scan<Kernel>> scan;
+  CR::internal::Rigid_motion moved_from_file;
+  double seconds = 0;
+};
+
+struct Answer
+{
+  CR::Registration_result<Kernel> result;
+  double seconds = 0;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<Pair> read_pairs(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot open " + path);
+  std::string line;
+  std::getline(file, line);
+  if (line.rfind("source,target", 0) != 0)
+    throw std::runtime_error(path + ":1: the first line has to name the columns, source and target first");
+  std::vector<Pair> pairs;
+  for (std::size_t number = 2; std::getline(file, line); ++number) {
+    if (line.empty()) continue;
+    std::stringstream fields(line);
+    Pair pair;
+    std::getline(fields, pair.source, ',');
+    std::getline(fields, pair.target, ',');
+    if (pair.source.empty() || pair.target.empty())
+      throw std::runtime_error(path + ":" + std::to_string(number) + ": no source and target");
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+std::optional<Kernel::Point_3> read_point(const std::string& text)
+{
+  if (text.empty()) return std::nullopt;
+  std::istringstream in(text);
+  double x, y, z;
+  char comma_1, comma_2;
+  if (!(in >> x >> comma_1 >> y >> comma_2 >> z) || comma_1 != ',' || comma_2 != ',' || !(in >> std::ws).eof())
+    throw std::runtime_error("--viewpoint has to be x,y,z, not " + text);
+  return Kernel::Point_3(x, y, z);
+}
+
+// A rigid motion that depends on the name alone: a turn drawn evenly from all, a shift of up to the scan's size.
+CR::internal::Rigid_motion motion_of_name(const std::string& name, double size)
+{
+  std::uint64_t state = 14695981039346656037u;
+  for (char c : name) state = CR::internal::mixed(state ^ static_cast<unsigned char>(c));
+  const auto next = [&state] {
+    state = CR::internal::mixed(state);
+    return 2 * (double(state >> 11) / 9007199254740992.) - 1;
+  };
+  Eigen::Quaterniond q;
+  do {
+    const double w = next(), x = next(), y = next(), z = next();
+    q = Eigen::Quaterniond(w, x, y, z);
+  } while (q.norm() > 1 || q.norm() < 0.1);
+  CR::internal::Rigid_motion motion;
+  motion.rotation = q.normalized().toRotationMatrix();
+  for (int i = 0; i < 3; ++i) motion.translation[i] = size * next();
+  return motion;
+}
+
+Moved_scan read_and_move(const std::string& path, const std::string& name,
+                         const std::optional<Kernel::Point_3>& viewpoint)
+{
+  CR::Scan_file<Kernel> file = CR::read_scan<Kernel>(path);
+  CGAL::Bbox_3 box;
+  for (const auto& p : file.image.points()) box += p.bbox();
+  for (const auto& p : file.points) box += p.bbox();
+  for (const auto& p : file.mesh.points()) box += p.bbox();
+  Moved_scan moved;
+  moved.moved_from_file =
+      motion_of_name(name, (std::max)({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()}));
+  const Motion motion = CR::internal::to_aff_transformation<Kernel>(moved.moved_from_file);
+  CR::transform(file.image, motion);
+  for (auto& p : file.points) p = p.transform(motion);
+  CGAL::Polygon_mesh_processing::transform(motion, file.mesh);
+
+  const auto start = std::chrono::steady_clock::now();
+  if (viewpoint && file.kind != CR::Scan_file<Kernel>::RANGE_IMAGE)
+    moved.scan.emplace(file, CR::parameters::viewpoint(viewpoint->transform(motion)), path);
+  else moved.scan.emplace(file, CR::parameters::default_values(), path);
+  moved.seconds = seconds_since(start);
+  return moved;
+}
+
+// f(0) .. f(n - 1), by some threads; each writes what is its own. The first exception is thrown again.
+template <class Function>
+void for_each_index(std::size_t n, unsigned threads, Function f)
+{
+  std::atomic<std::size_t> next(0);
+  std::vector<std::exception_ptr> errors(threads);
+  const auto work = [&](unsigned t) {
+    try {
+      for (std::size_t i = next++; i < n; i = next++) f(i);
+    } catch (...) {
+      errors[t] = std::current_exception();
+    }
+  };
+  std::vector<std::thread> workers;
+  for (unsigned t = 1; t < threads; ++t) workers.emplace_back(work, t);
+  work(0);
+  for (std::thread& w : workers) w.join();
+  for (const std::exception_ptr& e : errors)
+    if (e) std::rethrow_exception(e);
+}
+
+void write(std::ostream& out, const std::vector<Pair>& pairs, const std::vector<Answer>& answers,
+           const std::map<std::string, std::size_t>& index, const std::vector<Moved_scan>& scans)
+{
+  out.imbue(std::locale::classic());
+  out << std::setprecision(12);
+  out << "source,target,status,confidence,seconds,prepare_seconds,pair_seconds,overlap,residual,violations,"
+         "score,runner_up,crude_degrees,icp_iterations";
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) out << ",m" << i << j;
+  out << '\n';
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Moved_scan &source = scans[index.at(pairs[k].source)], &target = scans[index.at(pairs[k].target)];
+    const auto& r = answers[k].result;
+    const double prepare = source.seconds + target.seconds;
+    const auto motion = CR::internal::to_rigid_motion(r.transformation()),
+               crude = CR::internal::to_rigid_motion(r.crude_transformation());
+    const double crude_degrees =
+        Eigen::AngleAxisd(CR::internal::Matrix(motion.rotation * crude.rotation.transpose())).angle() * 180 / CGAL_PI;
+    out << pairs[k].source << ',' << pairs[k].target << ',' << r.status() << ',' << r.confidence() << ','
+        << prepare + answers[k].seconds << ',' << prepare << ',' << answers[k].seconds << ',' << r.overlap() << ','
+        << r.residual() << ',' << r.free_space_violations() << ',' << r.score() << ','
+        << (r.runners_up().empty() ? 0 : r.runners_up().front().score) << ',' << crude_degrees << ','
+        << (r.statistics().empty() ? 0 : r.statistics().back().count);
+    const auto in_files = target.moved_from_file.inverse() * motion * source.moved_from_file;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        out << ',';
+        if (r.status() != CR::NOT_REGISTERED) out << (j < 3 ? in_files.rotation(i, j) : in_files.translation[i]);
+      }
+    }
+    out << '\n';
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try {
+    std::string pairs_file, scans_folder, output, viewpoint_text;
+    unsigned threads;
+    po::options_description options("all_pairs: registers pairs of scans and writes one row a pair");
+    options.add_options()("help,h", "this text")("pairs", po::value(&pairs_file)->required(),
+                                                 "CSV file whose first two columns are source,target")(
+        "scans", po::value(&scans_folder)->required(), "folder the file names in the pairs are relative to")(
+        "output", po::value(&output)->required(), "CSV file to write")("threads", po::value(&threads)->default_value(1),
+                                                                       "pairs worked on at a time")(
+        "viewpoint", po::value(&viewpoint_text),
+        "x,y,z: where scans without a grid were seen from, in their own frame");
+    po::variables_map values;
+    po::store(po::parse_command_line(argc, argv, options), values);
+    if (values.count("help")) {
+      std::cout << options;
+      return EXIT_SUCCESS;
+    }
+    po::notify(values);
+    threads = (std::max)(threads, 1u);
+    const auto viewpoint = read_point(viewpoint_text);
+
+    const std::vector<Pair> pairs = read_pairs(pairs_file);
+    std::map<std::string, std::size_t> index;
+    std::vector<std::string> names;
+    for (const Pair& p : pairs)
+      for (const std::string& name : {p.source, p.target})
+        if (index.emplace(name, names.size()).second) names.push_back(name);
+    std::vector<Moved_scan> scans(names.size());
+    for_each_index(names.size(), threads, [&](std::size_t i) {
+      scans[i] = read_and_move(scans_folder + "/" + names[i], names[i], viewpoint);
+    });
+    std::vector<Answer> answers(pairs.size());
+    const auto start = std::chrono::steady_clock::now();
+    for_each_index(pairs.size(), threads, [&](std::size_t k) {
+      const auto begin = std::chrono::steady_clock::now();
+      answers[k].result =
+          CR::register_scans(*scans[index.at(pairs[k].source)].scan, *scans[index.at(pairs[k].target)].scan);
+      answers[k].seconds = seconds_since(begin);
+    });
+    const double elapsed = seconds_since(start);
+    CR::internal::write_atomically(output, [&](std::ostream& out) { write(out, pairs, answers, index, scans); });
+
+    const auto registered = std::count_if(answers.begin(), answers.end(),
+                                          [](const Answer& a) { return a.result.status() == CR::REGISTERED; });
+    std::cout << pairs.size() << " pairs, " << registered << " registered, " << elapsed << " s with " << threads
+              << (threads == 1 ? " thread" : " threads") << ", written to " << output << '\n';
+  } catch (const std::exception& e) {
+    std::cerr << "all_pairs: " << e.what() << '\n';
+    return EXIT_FAILURE;
+  }
+}
