@@ -46,7 +46,7 @@ public:
     Flat_mesh mesh;
     if (m_points.size() < 3) return mesh;
     to_principal_frame();
-    if (!(m_extent > 0)) return mesh; // one point, many times
+    if (m_is_line) return mesh;
     const std::vector<Vector> points = thin();
     advance_front(points, mesh);
     keep_used_points(mesh, points);
@@ -69,7 +69,8 @@ private:
     Matrix covariance = Matrix::Zero();
     for (const Vector& p : m_points) covariance += (p - m_centroid) * (p - m_centroid).transpose();
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
-    Matrix axes = solver.eigenvectors();
+    const Matrix axes = solver.eigenvectors();
+    m_is_line = !(solver.eigenvalues()[1] > 1e-14 * solver.eigenvalues()[2]); // or one point, many times
     m_local.reserve(m_points.size());
     Vector third = Vector::Zero();
     for (const Vector& p : m_points) {
@@ -198,6 +199,7 @@ private:
   const double m_ratio;
   Vector m_centroid = Vector::Zero();
   std::vector<Vector> m_local; // the points in their principal frame
+  bool m_is_line = false;
   double m_extent = 0;
   double m_spacing = 0;
 };
