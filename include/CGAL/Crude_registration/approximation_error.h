@@ -19,7 +19,9 @@
 #include <CGAL/Crude_registration/surface_types.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -148,10 +150,27 @@ double approximation_error(const Flat_mesh& mesh, const NamedParameters& np, con
  * \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
  *
  * \param mesh a triangle mesh; vertices without a face do not count
- * \param np an optional sequence of named parameters among the ones listed below:
- *   - `vertex_point_map`: default `get(CGAL::vertex_point, mesh)`
- *   - `viewing_direction`: a `Vector_3`, from the sensor into the scene
- *   - `viewpoint`: a `Point_3`, the place of the sensor
+ * \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor`
+ *                    as key type and a `Point_3` as value type}
+ *     \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{viewing_direction}
+ *     \cgalParamDescription{the direction of the lines of sight, from the sensor into the scene}
+ *     \cgalParamType{`Vector_3`, not null}
+ *     \cgalParamDefault{none: the frame is found from the mesh}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{viewpoint}
+ *     \cgalParamDescription{the place of the sensor; the depth axis goes through it and the centroid of the surface.
+ *                           Not read where `viewing_direction` is given}
+ *     \cgalParamType{`Point_3`}
+ *     \cgalParamDefault{none}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
  *
  * \throws std::invalid_argument if a face of `mesh` is not a triangle or a coordinate is not finite.
  */
@@ -189,10 +208,31 @@ Scan_extent scan_extent(const Range_image<Kernel>& image)
  * \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
  *
  * \param mesh a triangle mesh
- * \param np an optional sequence of named parameters among the ones listed below:
- *   - `vertex_point_map`: default `get(CGAL::vertex_point, mesh)`
- *   - `sampling_distance`: \f$ s \f$, a length above zero; default: the median length of the edges
- *   - `viewing_direction`, `viewpoint`: as for `scan_extent()`
+ * \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor`
+ *                    as key type and a `Point_3` as value type}
+ *     \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{sampling_distance}
+ *     \cgalParamDescription{the sampling distance \f$ s \f$}
+ *     \cgalParamType{`double`, above zero}
+ *     \cgalParamDefault{the median length of the edges}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{viewing_direction}
+ *     \cgalParamDescription{as for `scan_extent()`}
+ *     \cgalParamType{`Vector_3`}
+ *     \cgalParamDefault{none}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{viewpoint}
+ *     \cgalParamDescription{as for `scan_extent()`}
+ *     \cgalParamType{`Point_3`}
+ *     \cgalParamDefault{none}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
  *
  * \throws std::invalid_argument if a face of `mesh` is not a triangle, a coordinate is not finite, or the sampling
  * distance is not a finite number above zero.

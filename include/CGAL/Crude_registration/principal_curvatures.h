@@ -65,11 +65,24 @@ struct Principal_curvatures
  *
  * \param mesh the mesh
  * \param curvature_map receives the curvatures of every vertex
- * \param np an optional sequence of named parameters among the ones listed below:
- *   - `vertex_point_map`: default `get(CGAL::vertex_point, mesh)`
- *   - `neighbor_radius` (of `CGAL::parameters`): a length, zero or above; the tensors of the vertices connected to a
- *     vertex within this distance are averaged, the radius being cut off, down to its half, at the border of the mesh;
- *     default 0, no average. The cost is proportional to the number of vertices within the radius
+ * \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor`
+ *                    as key type and a `Point_3` as value type}
+ *     \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{neighbor_radius}
+ *     \cgalParamDescription{a length: the tensors of the vertices connected to a vertex within this distance are
+ *                           averaged, the distance being cut off, down to its half, at the border of the mesh. The
+ *                           cost is proportional to the number of vertices within it}
+ *     \cgalParamType{`double`, zero or above}
+ *     \cgalParamDefault{`0`: no average}
+ *     \cgalParamExtra{a name of `CGAL::parameters`}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
  *
  * \throws std::invalid_argument if a face of `mesh` is not a triangle, a coordinate is not finite, or the radius is
  * negative or not finite.

@@ -19,8 +19,8 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <cstddef>
-#include <iterator>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace CGAL {
@@ -142,11 +142,28 @@ struct Simplification_stop
  * \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
  *
  * \param mesh the mesh, changed in place
- * \param np an optional sequence of named parameters among the ones listed below:
- *   - `vertex_point_map`: read and written; default `get(CGAL::vertex_point, mesh)`
- *   - `approximation_error`: the largest mean squared distance of a collapse, a squared length, zero or above
- *   - `number_of_vertices`: the number of vertices to stop at
- *   - `sampling_distance`, `viewing_direction`, `viewpoint`: as for `approximation_error()`, read where it is called
+ * \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+ *     \cgalParamType{a class model of `ReadWritePropertyMap` with
+ *                    `boost::graph_traits<TriangleMesh>::%vertex_descriptor` as key type and a `Point_3` as value
+ *                    type}
+ *     \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{approximation_error}
+ *     \cgalParamDescription{the largest mean squared distance of a collapse, a squared length}
+ *     \cgalParamType{`double`, zero or above}
+ *     \cgalParamDefault{`approximation_error(mesh, np)` if `number_of_vertices` is not given either, else no limit}
+ *     \cgalParamExtra{the parameters of that function are read, too}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{number_of_vertices}
+ *     \cgalParamDescription{the number of vertices to stop at}
+ *     \cgalParamType{an integer}
+ *     \cgalParamDefault{`0`}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
  *
  * \return the number of vertices left
  *

@@ -12,10 +12,6 @@
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
-#include <CGAL/number_utils.h>
-
-#include <boost/graph/graph_traits.hpp>
-
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -137,11 +133,28 @@ inline Surface_type_counts count_surface_types(const Curvature_field& field, dou
  * \param mesh the mesh
  * \param type_map receives the type of every vertex; `PLANAR` for those without a face of positive area, which are not
  * counted
- * \param np an optional sequence of named parameters among the ones listed below:
- *   - `vertex_point_map`: default `get(CGAL::vertex_point, mesh)`
- *   - `tolerance`: the absolute value, in 1/length, up to which a curvature counts as zero; default: that of a radius
- * of a million times the size of the mesh (twice the root mean square distance of the vertices from their centroid)
- *   - `neighbor_radius` (of `CGAL::parameters`): as for `principal_curvatures()`
+ * \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor`
+ *                    as key type and a `Point_3` as value type}
+ *     \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{tolerance}
+ *     \cgalParamDescription{the absolute value, in 1/length, up to which a curvature counts as zero}
+ *     \cgalParamType{`double`, zero or above}
+ *     \cgalParamDefault{that of a radius of a million times the size of the mesh (twice the root mean square distance
+ *                       of the vertices from their centroid)}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{neighbor_radius}
+ *     \cgalParamDescription{as for `principal_curvatures()`}
+ *     \cgalParamType{`double`, zero or above}
+ *     \cgalParamDefault{`0`}
+ *     \cgalParamExtra{a name of `CGAL::parameters`}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
  *
  * \throws std::invalid_argument as `principal_curvatures()`, and if the tolerance is negative or not finite.
  */
