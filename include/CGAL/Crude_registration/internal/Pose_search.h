@@ -321,12 +321,19 @@ public:
     return best;
   }
 
+  // A pose after refinement on the fine surfels.
   Judged_pose judge(Pose pose)
   {
     ++m_counts.judged;
     const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
     for (float reach : {2.f, 2.f, 2.f, 1.25f, 1.25f, 0.75f})
       if (refine_step(m_source.fine, m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
+    return assess(pose);
+  }
+
+  // A pose as it is.
+  Judged_pose assess(const Pose& pose) const
+  {
     const Agreement a =
         agreement(m_source, m_source.fine, m_fine_source_probes, m_target, m_target.fine, m_fine_target_probes, pose,
                   m_fine_tolerance.distance, m_fine_tolerance.minimal_cosine,

@@ -10,6 +10,7 @@
 
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/internal/Pose_search.h>
+#include <CGAL/Crude_registration/internal/free_motions.h>
 #include <CGAL/Crude_registration/internal/point_to_plane.h>
 
 #include <chrono>
@@ -60,6 +61,7 @@ struct Registration_outcome
   double overlap = 0, residual = 0;
   double misfit = 0;                      // the residual in units of the scans' own noise
   Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
+  Free_motions free_motions;              // in the frame of the input of what the poses call target
   Verdict verdict;
   Search_counts counts;
   double search_seconds = 0, refine_seconds = 0;
@@ -80,6 +82,11 @@ inline Rigid_motion to_rigid_motion(const Pose& pose)
   return m;
 }
 
+inline Pose to_pose(const Rigid_motion& motion)
+{
+  return {motion.rotation.cast<float>(), motion.translation.cast<float>()};
+}
+
 // The scan with fewer surfels is looked for in the other one; equal ones are told apart by size, so that swapping the
 // arguments gives the inverse.
 inline bool are_swapped(const Prepared_scan& source, const Prepared_scan& target)
@@ -89,18 +96,20 @@ inline bool are_swapped(const Prepared_scan& source, const Prepared_scan& target
   return source.extent > target.extent;
 }
 
-// The confidence in the best pose, from its score and its lead over the next distinct one: a logistic function of both,
-// with the scores that wrong poses reach by chance as its lower bound.
-inline double confidence(const std::vector<Judged_pose>& poses)
+// The confidence in the best pose, a logistic function of three things: its score, against the scores that wrong poses
+// reach by chance; its lead over the next distinct pose; and how well the scans fit where they overlap, in units of
+// their noise. Right poses fit to about 1.5, whatever their overlap; wrong ones to 2.5 and more.
+inline double confidence(const std::vector<Judged_pose>& poses, double misfit)
 {
   if (poses.empty() || !(poses.front().score() > 0)) return 0;
   const double score = double(poses.front().score());
   const double ratio = poses.size() > 1 ? (std::max)(0., double(poses[1].score())) / score : 0;
-  const double evidence = (std::min)(3 * std::log(score / 0.05) + 12 * (0.5 - ratio), 12 * std::log(score / 0.045));
+  const double evidence =
+      3 * std::log(score / 0.07) + (std::min)(14 * (0.75 - ratio), 2.) + (std::min)(3 * (2.2 - misfit), 3.);
   return 1 / (1 + std::exp(-evidence));
 }
 
-inline Verdict judge_poses(const std::vector<Judged_pose>& poses, const Refinement& refinement)
+inline Verdict judge_poses(const std::vector<Judged_pose>& poses, double misfit, const Free_motions& free)
 {
   constexpr double believed = 0.9, // confidence
       plausible = 0.1;             // score
@@ -109,11 +118,12 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, const Refineme
     verdict.reason = "no overlap found: no motion brings any part of the scans together";
     return verdict;
   }
-  verdict.confidence = confidence(poses);
+  verdict.confidence = confidence(poses, misfit);
   const bool is_plausible = poses.front().score() >= plausible;
-  if (is_plausible && !refinement.free_motions.empty()) {
+  if (is_plausible && !free.motions.empty()) {
     verdict.status = AMBIGUOUS;
-    verdict.reason = "the overlap leaves " + std::to_string(refinement.free_motions.size()) + " motions free";
+    verdict.free_motions = free.motions;
+    verdict.reason = free.surface.empty() ? "the overlap leaves motions free" : "the overlap is " + free.surface;
   } else if (verdict.confidence >= believed) {
     verdict.status = REGISTERED;
   } else if (is_plausible) {
@@ -129,6 +139,55 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, const Refineme
 inline double noise(const Surfel_level& level)
 {
   return double(level.spacing) * (std::max)(double(level.height_noise), 0.02);
+}
+
+// How the small motion x -> x + w x x + v reads in the frame that `motion` maps to: of (w, v), in this order.
+inline Matrix_6 adjoint(const Rigid_motion& motion)
+{
+  const Vector& t = motion.translation;
+  Matrix cross;
+  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
+  Matrix_6 a = Matrix_6::Zero();
+  a.topLeftCorner<3, 3>() = a.bottomRightCorner<3, 3>() = motion.rotation;
+  a.bottomLeftCorner<3, 3>() = cross * motion.rotation;
+  return a;
+}
+
+// The share of a scan's surface that has the other one close by, facing the same way. `pose`: target from source.
+inline double overlap(const Prepared_scan& source, const Prepared_scan& target, const Pose& pose)
+{
+  std::vector<std::int32_t> some = shuffled(source.fine.surfels.size(), 3);
+  if (some.size() > 3000) some.resize(3000);
+  const float spacing = (std::max)(source.fine.spacing, target.fine.spacing);
+  return double(agreement(source, source.fine, some, target, target.fine, std::vector<std::int32_t>(), pose, spacing,
+                          0.7f, spacing)
+                    .overlap);
+}
+
+// The motion along `twist` = (w, v), x -> x + w x x + v, for the time `t`.
+inline Rigid_motion exponential(const Vector_6& twist, double t)
+{
+  const Vector w = t * twist.head<3>(), v = t * twist.tail<3>();
+  const double angle = w.norm();
+  Rigid_motion m;
+  m.translation = v;
+  if (angle < 1e-12) return m;
+  const Vector axis = w / angle;
+  m.rotation = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  m.translation = std::sin(angle) / angle * v + (1 - std::cos(angle)) / angle * axis.cross(v) +
+                  (1 - std::sin(angle) / angle) * axis.dot(v) * axis;
+  return m;
+}
+
+// Whether the scans agree as well after two spacings of the simplified surface along `twist`, either way: the
+// information matrix alone calls motions free that are merely uncertain.
+template <class Search>
+bool is_free(const Search& search, const Rigid_motion& motion, const Vector_6& twist, double spacing)
+{
+  constexpr float as_well = 0.75f;
+  const float there = search.assess(to_pose(motion)).score();
+  return search.assess(to_pose(exponential(twist, 2 * spacing) * motion)).score() > as_well * there ||
+         search.assess(to_pose(exponential(twist, -2 * spacing) * motion)).score() > as_well * there;
 }
 
 // a and b are source and target.
@@ -170,10 +229,22 @@ inline Registration_outcome register_prepared_scans(const Prepared_scan& a, cons
     outcome.crude = outcome.to_input(crude);
     outcome.motion = outcome.to_input(outcome.refinement.motion);
     outcome.residual = outcome.refinement.residual / options.sampling_distance;
-    outcome.overlap = outcome.refinement.overlap;
+    const Rigid_motion& own = outcome.refinement.motion;
+    outcome.overlap =
+        outcome.is_swapped ? overlap(target, source, to_pose(own.inverse())) : overlap(source, target, to_pose(own));
+    std::vector<Vector_6> free;
+    const Matrix_6 target_to_input = adjoint(outcome.target_frame.inverse());
+    for (const Vector_6& m : outcome.refinement.free_motions)
+      if (is_free(search, own, m, double(source.coarse.spacing))) free.push_back(target_to_input * m);
+    outcome.free_motions =
+        name_free_motions(free, outcome.target_frame.inverse()(own.translation), 0.25 * source.extent);
+    // The deviation follows the motion; seen from the other side it goes through the inverse.
+    const Matrix_6 to_input =
+        outcome.is_swapped ? Matrix_6(adjoint(outcome.motion) * target_to_input) : target_to_input;
+    outcome.covariance = to_input * outcome.refinement.covariance * to_input.transpose();
     outcome.misfit = outcome.refinement.residual / (std::max)(noise(source.fine), noise(target.fine));
   }
-  outcome.verdict = judge_poses(outcome.poses, outcome.refinement);
+  outcome.verdict = judge_poses(outcome.poses, outcome.misfit, outcome.free_motions);
   outcome.refine_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
   return outcome;
 }
