@@ -11,7 +11,6 @@
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -160,11 +159,11 @@ private:
     for (Axis& axis : m_axes) axis.parallel << m_inverse_covariance * axis.sum.head<3>(), axis.sum(3);
   }
 
-  // the unit vector h for which h^T A h is smallest, and whether it is so by far
-  template <int n>
-  static bool null_vector(const Eigen::Matrix<double, n, n>& a, Eigen::Matrix<double, n, 1>& h)
+  // The unit vector h for which h^T A h is smallest, and whether it is so by far. (Matrices of dynamic size: unrolled
+  // for 8 and 12 they take a compiler ten seconds.)
+  static bool null_vector(const Eigen::MatrixXd& a, Eigen::VectorXd& h)
   {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> solver(a);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
     h = solver.eigenvectors().col(0);
     return solver.eigenvalues()[1] > 1e-11 && solver.eigenvalues()[0] < 0.01 * solver.eigenvalues()[1];
   }
@@ -173,10 +172,12 @@ private:
   void fit_pencil(std::size_t i)
   {
     Axis& axis = m_axes[i];
-    Eigen::Matrix<double, 8, 8> a;
-    a << m_moments, -axis.first, -axis.first, axis.second;
-    Eigen::Matrix<double, 8, 1> h;
-    axis.has_pencil = null_vector<8>(a, h) && h(7) != 0;
+    Eigen::MatrixXd a(8, 8);
+    a.topLeftCorner<4, 4>() = m_moments;
+    a.topRightCorner<4, 4>() = a.bottomLeftCorner<4, 4>() = -axis.first;
+    a.bottomRightCorner<4, 4>() = axis.second;
+    Eigen::VectorXd h;
+    axis.has_pencil = null_vector(a, h) && h(7) != 0;
     if (!axis.has_pencil) return;
     axis.numerator = h.head<4>() / h(7);
     axis.denominator = h.tail<4>() / h(7);
@@ -184,14 +185,16 @@ private:
 
   void fit_central()
   {
-    Eigen::Matrix<double, 12, 12> a;
-    a << m_moments, Matrix_4::Zero(), -m_axes[0].first, Matrix_4::Zero(), m_moments, -m_axes[1].first, -m_axes[0].first,
-        -m_axes[1].first, m_axes[0].second + m_axes[1].second;
-    Eigen::Matrix<double, 12, 1> h;
-    m_has_central = null_vector<12>(a, h) && h(11) != 0;
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(12, 12);
+    for (int i = 0; i < 2; ++i) {
+      a.block<4, 4>(4 * i, 4 * i) = m_moments;
+      a.block<4, 4>(4 * i, 8) = a.block<4, 4>(8, 4 * i) = -m_axes[static_cast<std::size_t>(i)].first;
+      a.block<4, 4>(8, 8) += m_axes[static_cast<std::size_t>(i)].second;
+    }
+    Eigen::VectorXd h;
+    m_has_central = null_vector(a, h) && h(11) != 0;
     if (!m_has_central) return;
-    h /= h(11);
-    m_central << h.head<4>().transpose(), h.segment<4>(4).transpose(), h.tail<4>().transpose();
+    for (int i = 0; i < 3; ++i) m_central.row(i) = h.segment<4>(4 * i).transpose() / h(11);
   }
 
   // root mean squares; a denominator that changes its sign within the scan has no meaning as a distance from a sensor
@@ -241,7 +244,7 @@ private:
 
   Flat_sensor central_sensor() const
   {
-    const Vector centre = m_central.leftCols<3>().fullPivLu().solve(-m_central.col(3));
+    const Vector centre = -m_central.leftCols<3>().inverse() * m_central.col(3);
     if (!centre.allFinite()) return Flat_sensor();
     return {Flat_sensor::PERSPECTIVE, m_origin + m_scale * centre};
   }
