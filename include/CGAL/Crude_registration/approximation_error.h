@@ -86,7 +86,7 @@ Scan_extent scan_extent(const Flat_mesh& mesh, const NamedParameters& np, const 
 // triangulation, whose own frame stands in for what the grid does not say.
 inline Rigid_motion grid_frame(const Flat_range_image& image, const Flat_mesh& mesh)
 {
-  const Rigid_motion own = scan_frame(mesh);
+  Rigid_motion own = scan_frame(mesh);
   const Vector centroid = own.inverse().translation;
   const Vector z = image.sensor.kind == Flat_sensor::UNKNOWN ? Vector(own.rotation.row(2))
                                                              : Vector(-unit_or_zero(image.sensor.towards(centroid)));
