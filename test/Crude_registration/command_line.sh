@@ -1,0 +1,143 @@
+#!/usr/bin/env bash
+# Tests of the command line program: command_line.sh PROGRAM FOLDER, a folder of its own to work in.
+set -u
+program=$1
+folder=$2
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder" || exit 1
+failures=0
+
+fail()
+{
+  echo "FAILED: $1"
+  failures=$((failures + 1))
+}
+
+# expect CODE ARGUMENT...: runs the program; its output is left in out.txt and err.txt.
+expect()
+{
+  local expected=$1 code=0
+  shift
+  "$program" "$@" > out.txt 2> err.txt || code=$?
+  if [ "$code" -ne "$expected" ]; then
+    fail "exit code $code instead of $expected: crude_register $*"
+    cat out.txt err.txt
+  fi
+}
+
+# rejects TEXT ARGUMENT...: exit code 1, nothing on the output, one line with TEXT as the error.
+rejects()
+{
+  local text=$1
+  shift
+  expect 1 "$@"
+  grep -qF -- "$text" err.txt || fail "'$text' is not in the error of crude_register $*: $(cat err.txt)"
+  [ "$(wc -l < err.txt)" -eq 1 ] || fail "the error is not one line: crude_register $*"
+  [ -s out.txt ] && fail "there is output beside the error: crude_register $*"
+}
+
+# says TEXT: the last output has it.
+says()
+{
+  grep -qF -- "$1" out.txt || fail "'$1' is not in the output: $(cat out.txt)"
+}
+
+# Help.
+for command in "" register info simulate; do
+  expect 0 $command --help
+  says usage:
+done
+
+# Wrong use.
+rejects "no command"
+rejects frobnicate frobnicate
+rejects SOURCE register
+rejects TARGET register a.ply
+rejects "--bogus" register a.ply b.ply --bogus
+rejects "a.ply: " register a.ply b.ply
+rejects "--output" simulate
+rejects "--scans" simulate --output scans --scans 0
+rejects "resolution" simulate --output scans --resolution 3
+rejects "noise" simulate --output scans --noise -1
+
+# Simulation, and the registration of what it makes.
+expect 0 simulate --output scans --samples 150 --scans 2
+for file in scan_0.ply scan_1.ply poses.txt; do [ -s "scans/$file" ] || fail "$file is not written"; done
+cp scans/scan_0.ply first.ply
+expect 0 simulate --output scans --samples 150 --scans 2
+cmp -s first.ply scans/scan_0.ply || fail "the same simulation gives another scan"
+
+pair="scans/scan_0.ply scans/scan_1.ply"
+expect 0 register $pair --output moved --poses scans/poses.txt
+says "status:     registered"
+awk '/^error:/ { found = 1; if ($2 > 1) exit 1 } END { exit !found }' out.txt ||
+  fail "the rotation is wrong: $(grep error: out.txt)"
+for file in source_moved.ply target.ply motion.txt; do [ -s "moved/$file" ] || fail "$file is not written"; done
+awk 'NF != 4 { exit 1 } END { exit NR != 4 }' moved/motion.txt || fail "motion.txt is not a 4 x 4 matrix"
+
+# The moved source lies where its target is: it does not move any more.
+expect 0 register moved/source_moved.ply moved/target.ply --output again
+awk '{ for (i = 1; i <= 4; ++i) { d = $i - (i == NR); if (d < -0.01 || d > 0.01) exit 1 } }' again/motion.txt ||
+  fail "the aligned scans are moved again: $(cat again/motion.txt)"
+
+expect 0 register $pair --json
+cp out.txt all_threads.json
+says '"status": "registered"'
+says '"target_from_source": ['
+grep -q seconds out.txt && fail "there are times in the JSON"
+expect 0 register $pair --json --threads 1
+cmp -s out.txt all_threads.json || fail "the number of threads changes the answer"
+expect 0 register $pair --json --times
+says '"seconds"'
+
+rejects "--f1" register $pair --f1 0.5 --f2 0.3
+rejects "--f1" register $pair --f1 nan
+rejects "--f1" register $pair --f1 x
+rejects "--threads" register $pair --threads 0
+rejects "--viewpoint" register $pair --viewpoint 1,2
+rejects "--viewpoint" register $pair --viewpoint 1,2,3,4
+rejects "nowhere.txt" register $pair --poses nowhere.txt
+echo "scan_0.ply 1 0 0 0 0 1 0 0 0 0 1" > short.txt
+rejects "short.txt:1: " register $pair --poses short.txt
+rejects "motion.txt" register $pair --output moved/motion.txt
+
+# Two bodies: not registered, and nothing is written.
+expect 0 simulate --output other --samples 150 --scans 1 --seed 5
+expect 3 register scans/scan_0.ply other/scan_0.ply --output nothing
+says "status:     not_registered"
+says "reason:"
+[ -e nothing ] && fail "something is written although the scans are not registered"
+
+# Two pieces of a plane: ambiguous.
+awk 'BEGIN { for (i = 0; i < 40; ++i) for (j = 0; j < 30; ++j) print i, j, 0 }' > plane_0.xyz
+awk 'BEGIN { for (i = 0; i < 30; ++i) for (j = 0; j < 40; ++j) print i, j, 0 }' > plane_1.xyz
+expect 2 register plane_0.xyz plane_1.xyz
+says "status:     ambiguous"
+
+# Information.
+expect 0 info scans/scan_0.ply
+says "range image"
+says "150 x 150"
+expect 0 info scans/scan_0.ply --json
+says '"columns": 150'
+expect 0 info moved/target.ply
+says mesh
+expect 0 info plane_0.xyz --viewpoint -20,15,100
+says points
+
+# Files that do not parse, with the line where it has one; no surface; coordinates that are no numbers.
+printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2\n' \
+  > broken.ply
+rejects "broken.ply:" info broken.ply
+rejects "broken.ply:" register broken.ply scans/scan_0.ply
+printf '0 0 0\n1 nan 0\n0 1 0\n' > not_finite.xyz
+rejects "not_finite.xyz:2: " info not_finite.xyz
+: > empty.xyz
+rejects "empty.xyz" register scans/scan_0.ply empty.xyz
+printf '0 0 0\n1 0 0\n2 0 0\n3 0 0\n' > line.xyz
+rejects "line.xyz" info line.xyz
+rejects "line.xyz" register line.xyz scans/scan_0.ply
+
+[ "$failures" -eq 0 ] && echo "all passed"
+exit $((failures > 0))
