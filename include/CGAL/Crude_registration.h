@@ -5,13 +5,16 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-
 #ifndef CGAL_CRUDE_REGISTRATION_H
 #define CGAL_CRUDE_REGISTRATION_H
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/IO/read_range_image.h>
+#include <CGAL/Crude_registration/IO/read_scan.h>
+#include <CGAL/Crude_registration/IO/write_range_image.h>
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/Registration_result.h>
+#include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/Spatial_trihedron.h>
 #include <CGAL/Crude_registration/Vertex_pair_index.h>
@@ -22,10 +25,12 @@
 #include <CGAL/Crude_registration/named_parameters.h>
 #include <CGAL/Crude_registration/principal_curvatures.h>
 #include <CGAL/Crude_registration/refine_motion.h>
+#include <CGAL/Crude_registration/register_scans.h>
 #include <CGAL/Crude_registration/rigid_motion.h>
 #include <CGAL/Crude_registration/simplify_scan.h>
 #include <CGAL/Crude_registration/simulate_range_image.h>
 #include <CGAL/Crude_registration/surface_types.h>
+#include <CGAL/Crude_registration/triangulate_points.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
 
 #endif // CGAL_CRUDE_REGISTRATION_H
