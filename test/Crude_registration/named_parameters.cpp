@@ -61,22 +61,22 @@ BOOST_AUTO_TEST_CASE(names_chain_in_any_order)
   BOOST_TEST(read(p::minimum_extent(0.25).number_of_vertices(7).random_seed(3)) == all);
   BOOST_TEST(read(p::minimum_extent(0.25).random_seed(3).number_of_vertices(7)) == all);
   BOOST_TEST(read(p::random_seed(3).minimum_extent(0.25).number_of_vertices(7)) == all);
-  BOOST_TEST(read(p::random_seed(3).verbose(true).number_of_vertices(7).viewpoint(Point()).minimum_extent(0.25)) ==
-             all);
+  BOOST_TEST(read(p::random_seed(3).neighbor_radius(0.5).number_of_vertices(7).viewpoint(Point()).minimum_extent(
+                 0.25)) == all);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_given_has_its_default)
 {
   BOOST_TEST(read() == (Values{-1, -1, -1}));
   BOOST_TEST(read(CGAL::parameters::default_values()) == (Values{-1, -1, -1}));
-  BOOST_TEST(read(CR::parameters::verbose(true)) == (Values{-1, -1, -1}));
+  BOOST_TEST(read(CR::parameters::neighbor_radius(0.5)) == (Values{-1, -1, -1}));
   BOOST_TEST(read(CR::parameters::number_of_vertices(7)) == (Values{-1, 7, -1}));
 }
 
 BOOST_AUTO_TEST_CASE(packs_of_cgal_alone_are_accepted)
 {
   BOOST_TEST(read(CGAL::parameters::random_seed(3)) == (Values{-1, -1, 3}));
-  BOOST_TEST(read(CGAL::parameters::verbose(true).random_seed(3)) == (Values{-1, -1, 3}));
+  BOOST_TEST(read(CGAL::parameters::neighbor_radius(0.5).random_seed(3)) == (Values{-1, -1, 3}));
   // A name of CGAL that no function here understands ends this package's chain, and is ignored.
   BOOST_TEST(read(CR::parameters::minimum_extent(0.25).density_control_factor(2.)) == (Values{0.25, -1, -1}));
 }
@@ -102,13 +102,13 @@ BOOST_AUTO_TEST_CASE(given_or_not_is_known_when_compiling)
 BOOST_AUTO_TEST_CASE(values_are_held_by_copy_or_by_reference_as_in_cgal)
 {
   Uncopyable fixed;
-  const auto a = CR::parameters::visitor(fixed).minimum_extent(0.5);
+  const auto a = CR::parameters::geom_traits(fixed).minimum_extent(0.5);
   fixed.value = 5;
-  BOOST_TEST(internal::parameter(a, internal_np::visitor, 0).get().value == 5);
+  BOOST_TEST(internal::parameter(a, internal_np::geom_traits, 0).get().value == 5);
 
   int calls = 0;
-  const auto b = CR::parameters::minimum_extent(0.5).visitor(std::ref(calls)).tolerance(0.1);
-  ++internal::parameter(b, internal_np::visitor, 0).get();
+  const auto b = CR::parameters::minimum_extent(0.5).geom_traits(std::ref(calls)).tolerance(0.1);
+  ++internal::parameter(b, internal_np::geom_traits, 0).get();
   BOOST_TEST(calls == 1);
 }
 

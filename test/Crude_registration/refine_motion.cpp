@@ -415,7 +415,7 @@ BOOST_AUTO_TEST_CASE(any_face_graph_kernel_and_point_map)
     map[v] = target.point(v);
     target.point(v) = CGAL::ORIGIN;
   }
-  const auto mapped = CR::refine_motion(graph(scans.source), target, initial, CR::parameters::verbose(false),
+  const auto mapped = CR::refine_motion(graph(scans.source), target, initial, CR::parameters::tolerance(0.05),
                                         CR::parameters::vertex_point_map(map));
   BOOST_TEST(difference(mapped.motion, rigid(reference.motion), scans.source) == 0.);
 }

@@ -34,17 +34,12 @@
 // The names of CGAL that functions of this package understand: ADD(CGAL's tag, name).
 #define CGAL_CRUDE_REGISTRATION_CGAL_PARAMETERS(ADD)                                                                   \
   ADD(geom_traits_t, geom_traits)                                                                                      \
-  ADD(maximum_running_time_t, maximum_running_time)                                                                    \
-  ADD(normal_t, normal_map)                                                                                            \
+  ADD(neighbor_radius_t, neighbor_radius)                                                                              \
   ADD(number_of_iterations_t, number_of_iterations)                                                                    \
   ADD(point_t, point_map)                                                                                              \
   ADD(random_seed_t, random_seed)                                                                                      \
-  ADD(transformation_t, transformation)                                                                                \
-  ADD(verbose_t, verbose)                                                                                              \
-  ADD(vertex_index_t, vertex_index_map)                                                                                \
   ADD(vertex_normal_map_t, vertex_normal_map)                                                                          \
-  ADD(vertex_point_t, vertex_point_map)                                                                                \
-  ADD(visitor_t, visitor)
+  ADD(vertex_point_t, vertex_point_map)
 
 namespace CGAL {
 namespace Crude_registration {

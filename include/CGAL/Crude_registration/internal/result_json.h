@@ -47,6 +47,7 @@ void write_json(Json_writer& json, const Registration_result<Kernel>& result, bo
   json.member("status", to_string(result.status()));
   json.member("reason", result.reason());
   json.member("confidence", result.confidence());
+  json.member("score", result.score());
   json.member("overlap", result.overlap());
   json.member("residual", result.residual());
   json.member("free_space_violations", result.free_space_violations());
