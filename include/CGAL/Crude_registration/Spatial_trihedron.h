@@ -65,8 +65,8 @@ struct Trihedron_options
 {
   double minimum_length = 0; // f1 M
   double maximum_length = 0; // f2 M
-  // Scale k limits the arms to minimum_length + (maximum_length - minimum_length) (2/3)^k.
-  int number_of_scales = 1;
+  // At each scale the arms are limited to minimum_length + scale (maximum_length - minimum_length), 0 < scale <= 1.
+  std::vector<double> scales = {1};
   int trihedra_per_scale = 1; // for each vertex
 };
 
@@ -92,9 +92,8 @@ public:
     std::vector<Spatial_trihedron> result;
     if (m_points.empty() || !(m_options.maximum_length > 0)) return result;
     const Point_grid grid(m_points, m_options.maximum_length / 2);
-    double share = 1;
-    for (int scale = 0; scale < m_options.number_of_scales; ++scale, share *= 2. / 3) {
-      const double longest = m_options.minimum_length + share * (m_options.maximum_length - m_options.minimum_length);
+    for (double scale : m_options.scales) {
+      const double longest = m_options.minimum_length + scale * (m_options.maximum_length - m_options.minimum_length);
       for (std::size_t v = 0; v < m_points.size(); ++v) {
         if (!m_inside[v]) continue;
         m_arms.clear();

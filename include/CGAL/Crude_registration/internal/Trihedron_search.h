@@ -58,7 +58,7 @@ inline Simplified_scan simplified_scan(const Prepared_scan& scan, const Flat_mes
 // How far a pass goes: which trihedra, and how far vertices that correspond may differ.
 struct Trihedron_pass
 {
-  int number_of_scales;
+  std::vector<double> scales;
   int trihedra_per_scale;
   double length;    // in spacings
   double angle;     // in degrees
@@ -72,8 +72,10 @@ struct Trihedron_search_parameters
   bool use_normals = true;
   // Passes follow each other until the best motion's fine score is at least `certain_score`. Every pass looks at all
   // its trihedra and the whole D-mesh.
-  std::vector<Trihedron_pass> passes = {
-      {1, 1, 0.7, 12, 0.15}, {2, 1, 0.7, 15, 0.2}, {2, 4, 0.7, 20, 0.2}, {3, 4, 0.8, 20, 0.4}};
+  std::vector<Trihedron_pass> passes = {{{2. / 3}, 1, 0.7, 12, 0.15},
+                                        {{1, 2. / 3}, 1, 0.7, 15, 0.2},
+                                        {{1, 2. / 3}, 4, 0.7, 20, 0.2},
+                                        {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4}};
   double certain_score = 0.1;
   std::size_t coarse_probes = 96;
   std::size_t kept_by_trihedron = 8;
@@ -133,7 +135,7 @@ private:
     Trihedron_options options;
     options.minimum_length = m_parameters.minimum_extent * m_s.extent;
     options.maximum_length = m_parameters.maximum_extent * m_s.extent;
-    options.number_of_scales = pass.number_of_scales;
+    options.scales = pass.scales;
     options.trihedra_per_scale = pass.trihedra_per_scale;
     const std::vector<Spatial_trihedron> trihedra = spatial_trihedra(m_s.vertices.points, m_s.vertices.inside, options);
     if (trihedra.empty()) return;
