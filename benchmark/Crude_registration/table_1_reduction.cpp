@@ -56,7 +56,7 @@ struct Row
   double samples = 0;
   double sampling_distance = 0, image_size = 0, percent_smooth = 0, approximation_error = 0;
   double vertices = 0;      // of the plain path on CGAL
-  double fast_vertices = 0; // of the path that registration takes
+  double fast_vertices = 0; // of grouping before the collapse
 
   double reduction() const { return samples > 0 ? 100 * (1 - vertices / samples) : 0; }
 };
@@ -164,7 +164,7 @@ int run(const Options& options)
               << std::setprecision(2) << std::setw(12) << paper_reduction << '\n';
   std::cout
       << "\ns, A: sampling distance and extent in the image plane; epsilon: approximation error, a squared length;\n"
-         "vertices: left by CGAL's edge collapse; fast: left by the grouping and collapse that registration uses\n";
+         "vertices: left by CGAL's edge collapse; fast: left by grouping before the collapse\n";
   if (!options.csv.empty()) write_csv(rows, options.csv, is_bunny);
   return EXIT_SUCCESS;
 }
