@@ -11,12 +11,22 @@
 // answer, so that no start and no axis helps. Each scan is prepared once. `seconds` is what a pair costs from samples
 // in memory: both preparations and the search; `prepare_seconds` and `pair_seconds` are its parts.
 
+// g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
 #include <CGAL/Crude_registration/IO/read_scan.h>
+#include <CGAL/Crude_registration/approximation_error.h>
+#include <CGAL/Crude_registration/internal/Trihedron_search.h>
 #include <CGAL/Crude_registration/internal/atomic_file.h>
 #include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/simplify_scan.h>
+#include <CGAL/Crude_registration/triangulate_range_image.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/transform.h>
+#include <CGAL/Surface_mesh.h>
 
 #include <Eigen/Geometry>
 
@@ -49,9 +59,17 @@ struct Pair
   std::string source, target;
 };
 
+struct Method
+{
+  bool is_paper = false;
+  double f1 = 0, f2 = 0.3; // of the paper's
+  std::optional<Kernel::Point_3> viewpoint;
+};
+
 struct Moved_scan
 {
   std::optional<CR::Scan<Kernel>> scan;
+  CR::internal::Simplified_scan simplified; // of the paper's method
   CR::internal::Rigid_motion moved_from_file;
   double seconds = 0;
 };
@@ -120,8 +138,28 @@ CR::internal::Rigid_motion motion_of_name(const std::string& name, double size)
   return motion;
 }
 
-Moved_scan read_and_move(const std::string& path, const std::string& name,
-                         const std::optional<Kernel::Point_3>& viewpoint)
+// The S- or D-mesh of the paper.
+template <class NamedParameters>
+CR::internal::Simplified_scan simplify(const CR::Scan_file<Kernel>& file, const CR::Scan<Kernel>& scan,
+                                       const NamedParameters& np)
+{
+  CGAL::Surface_mesh<Kernel::Point_3> mesh = file.mesh;
+  if (file.kind == CR::Scan_file<Kernel>::RANGE_IMAGE) CR::triangulate_range_image(file.image, mesh);
+  if (file.kind == CR::Scan_file<Kernel>::POINTS) CR::triangulate_points(file.points, mesh, np);
+  const double epsilon = file.kind == CR::Scan_file<Kernel>::RANGE_IMAGE ? CR::approximation_error(file.image)
+                                                                         : CR::approximation_error(mesh, np);
+  const auto flat = [&mesh] {
+    return CR::internal::to_flat_mesh(mesh, CR::parameters::default_values(), "all_pairs", "mesh");
+  };
+  const CR::internal::Flat_mesh dense = flat();
+  CR::simplify_scan(mesh, CR::parameters::approximation_error(epsilon));
+  mesh.collect_garbage();
+  auto simplified = CR::internal::simplified_scan(scan.prepared(), flat(), dense, CR::internal::vertex_normals(dense));
+  simplified.extent = scan.extent();
+  return simplified;
+}
+
+Moved_scan read_and_move(const std::string& path, const std::string& name, const Method& method)
 {
   CR::Scan_file<Kernel> file = CR::read_scan<Kernel>(path);
   CGAL::Bbox_3 box;
@@ -137,11 +175,40 @@ Moved_scan read_and_move(const std::string& path, const std::string& name,
   CGAL::Polygon_mesh_processing::transform(motion, file.mesh);
 
   const auto start = std::chrono::steady_clock::now();
-  if (viewpoint && file.kind != CR::Scan_file<Kernel>::RANGE_IMAGE)
-    moved.scan.emplace(file, CR::parameters::viewpoint(viewpoint->transform(motion)), path);
-  else moved.scan.emplace(file, CR::parameters::default_values(), path);
+  const auto prepare = [&](const auto& np) {
+    moved.scan.emplace(file, np, path);
+    if (method.is_paper) moved.simplified = simplify(file, *moved.scan, np);
+  };
+  if (method.viewpoint && file.kind != CR::Scan_file<Kernel>::RANGE_IMAGE)
+    prepare(CR::parameters::viewpoint(method.viewpoint->transform(motion)));
+  else prepare(CR::parameters::default_values());
   moved.seconds = seconds_since(start);
   return moved;
+}
+
+CR::Registration_result<Kernel> register_pair(const Moved_scan& source, const Moved_scan& target, const Method& method)
+{
+  if (!method.is_paper) return CR::register_scans(*source.scan, *target.scan);
+  const CR::internal::Prepared_scan &a = source.scan->prepared(), &b = target.scan->prepared();
+  CR::internal::Trihedron_search_parameters parameters;
+  parameters.minimum_extent = method.f1;
+  parameters.maximum_extent = method.f2;
+  const auto found =
+      CR::internal::Trihedron_search<CGAL::Sequential_tag>(a, source.simplified, b, target.simplified, parameters)();
+  CR::Registration_result<Kernel>::Parts parts;
+  if (!found.is_found) {
+    parts.reason = "no trihedron of the source has a counterpart";
+    return CR::Registration_result<Kernel>(parts);
+  }
+  const auto to_input = [&](const CR::internal::Rigid_motion& m) {
+    return CR::internal::to_aff_transformation<Kernel>(b.own_from_input.inverse() * m * a.own_from_input);
+  };
+  parts.status = CR::REGISTERED;
+  parts.score = found.score;
+  parts.confidence = 0.5;
+  parts.transformation = to_input(found.refined_motion);
+  parts.crude_transformation = to_input(found.crude_motion);
+  return CR::Registration_result<Kernel>(parts);
 }
 
 // f(0) .. f(n - 1), by some threads; each writes what is its own. The first exception is thrown again.
@@ -204,16 +271,20 @@ void write(std::ostream& out, const std::vector<Pair>& pairs, const std::vector<
 int main(int argc, char** argv)
 {
   try {
-    std::string pairs_file, scans_folder, output, viewpoint_text;
+    std::string pairs_file, scans_folder, output, viewpoint_text, method_name;
+    Method method;
     unsigned threads;
     po::options_description options("all_pairs: registers pairs of scans and writes one row a pair");
     options.add_options()("help,h", "this text")("pairs", po::value(&pairs_file)->required(),
                                                  "CSV file whose first two columns are source,target")(
         "scans", po::value(&scans_folder)->required(), "folder the file names in the pairs are relative to")(
-        "output", po::value(&output)->required(), "CSV file to write")("threads", po::value(&threads)->default_value(1),
-                                                                       "pairs worked on at a time")(
-        "viewpoint", po::value(&viewpoint_text),
-        "x,y,z: where scans without a grid were seen from, in their own frame");
+        "output", po::value(&output)->required(),
+        "CSV file to write")("method", po::value(&method_name)->default_value("default"), "default or paper")(
+        "f1", po::value(&method.f1)->default_value(method.f1), "least arm of a trihedron, paper's method")(
+        "f2", po::value(&method.f2)->default_value(method.f2), "greatest arm of a trihedron, paper's method")(
+        "threads", po::value(&threads)->default_value(1),
+        "pairs worked on at a time")("viewpoint", po::value(&viewpoint_text),
+                                     "x,y,z: where scans without a grid were seen from, in their own frame");
     po::variables_map values;
     po::store(po::parse_command_line(argc, argv, options), values);
     if (values.count("help")) {
@@ -222,7 +293,10 @@ int main(int argc, char** argv)
     }
     po::notify(values);
     threads = (std::max)(threads, 1u);
-    const auto viewpoint = read_point(viewpoint_text);
+    method.viewpoint = read_point(viewpoint_text);
+    if (method_name != "default" && method_name != "paper")
+      throw std::runtime_error("--method has to be default or paper, not " + method_name);
+    method.is_paper = method_name == "paper";
 
     const std::vector<Pair> pairs = read_pairs(pairs_file);
     std::map<std::string, std::size_t> index;
@@ -231,15 +305,13 @@ int main(int argc, char** argv)
       for (const std::string& name : {p.source, p.target})
         if (index.emplace(name, names.size()).second) names.push_back(name);
     std::vector<Moved_scan> scans(names.size());
-    for_each_index(names.size(), threads, [&](std::size_t i) {
-      scans[i] = read_and_move(scans_folder + "/" + names[i], names[i], viewpoint);
-    });
+    for_each_index(names.size(), threads,
+                   [&](std::size_t i) { scans[i] = read_and_move(scans_folder + "/" + names[i], names[i], method); });
     std::vector<Answer> answers(pairs.size());
     const auto start = std::chrono::steady_clock::now();
     for_each_index(pairs.size(), threads, [&](std::size_t k) {
       const auto begin = std::chrono::steady_clock::now();
-      answers[k].result =
-          CR::register_scans(*scans[index.at(pairs[k].source)].scan, *scans[index.at(pairs[k].target)].scan);
+      answers[k].result = register_pair(scans[index.at(pairs[k].source)], scans[index.at(pairs[k].target)], method);
       answers[k].seconds = seconds_since(begin);
     });
     const double elapsed = seconds_since(start);

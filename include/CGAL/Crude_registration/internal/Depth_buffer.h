@@ -39,10 +39,16 @@ public:
     projected.reserve(samples.size());
     double sum = 0;
     for (const Vector_f& p : samples) {
-      projected.push_back(project(p));
-      sum += double(projected.back()[2]);
+      const Vector_f q = project(p);
+      if (!q.allFinite()) continue;
+      projected.push_back(q);
+      sum += double(q[2]);
     }
-    if (m_kind == Flat_sensor::PERSPECTIVE) cell /= float(sum / double(samples.size()));
+    if (projected.empty()) {
+      m_kind = Flat_sensor::UNKNOWN;
+      return;
+    }
+    if (m_kind == Flat_sensor::PERSPECTIVE) cell /= float(sum / double(projected.size()));
     Vector_f low = projected.front(), high = low;
     for (const Vector_f& q : projected) {
       low = low.cwiseMin(q);
@@ -93,14 +99,16 @@ public:
   }
 
 private:
-  // Image coordinates and depth. Perspective: Lambert's azimuthal equal-area projection about the mean direction, as it
-  // holds the whole sphere (but the point opposite) in one plane.
+  // Image coordinates and depth; not numbers where there are none. Perspective: Lambert's azimuthal equal-area
+  // projection about the mean direction, as it holds the whole sphere (but the point opposite) in one plane.
   Vector_f project(const Vector_f& p) const
   {
     Vector_f q = m_axes * (p - m_viewpoint);
     if (m_kind == Flat_sensor::PERSPECTIVE) {
       const float r = q.norm();
-      const float f = std::sqrt(2 / (r * (std::max)(r + q[2], 1e-6f * r)));
+      if (!(r + q[2] > 1e-3f * r)) // at the viewpoint or opposite
+        return Vector_f::Constant(std::numeric_limits<float>::quiet_NaN());
+      const float f = std::sqrt(2 / (r * (r + q[2])));
       q = Vector_f(q[0] * f, q[1] * f, r);
     }
     return q;

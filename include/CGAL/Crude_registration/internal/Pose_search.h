@@ -275,6 +275,7 @@ public:
     std::vector<std::size_t> looks(round.scales.size(), round.looks / round.scales.size());
     for (const Source_pair& p : pairs) {
       if (looks[p.scale] < p.count) continue;
+      if (candidates.size() > most_candidates) break;
       looks[p.scale] -= p.count;
       match(p, round, candidates);
     }
@@ -342,6 +343,9 @@ public:
   }
 
 private:
+  // Planes and spheres match themselves everywhere; so many candidates are enough to show it.
+  static constexpr std::size_t most_candidates = 100000;
+
   struct Source_pair
   {
     std::int32_t first, second;

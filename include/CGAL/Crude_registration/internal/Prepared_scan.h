@@ -197,6 +197,36 @@ struct Oriented_samples
   std::vector<Vector_f> normals;
 };
 
+// Points about `distance` apart in rows along the longest edge of a face, at least one.
+inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face, const Rigid_motion& own,
+                        double distance, Oriented_samples& samples)
+{
+  const auto squared_length = [&](int i) {
+    return (mesh.points[std::size_t(face[std::size_t((i + 1) % 3)])] - mesh.points[std::size_t(face[std::size_t(i)])])
+        .squaredNorm();
+  };
+  const int longest = squared_length(0) >= squared_length(1) ? (squared_length(0) >= squared_length(2) ? 0 : 2)
+                                                             : (squared_length(1) >= squared_length(2) ? 1 : 2);
+  std::rotate(face.begin(), face.begin() + longest, face.end());
+  const Vector &a = mesh.points[std::size_t(face[0])], &b = mesh.points[std::size_t(face[1])],
+               &c = mesh.points[std::size_t(face[2])];
+  const Vector twice_area = area_vector(a, b, c), normal = unit_or_zero(twice_area);
+  const double length = (b - a).norm();
+  if (normal.isZero() || !(length > 0)) return;
+  constexpr double most = 2000; // points in a row, rows
+  const auto count = [&](double l) { return int(std::ceil((std::min)((std::max)(l / distance, 1.), most))); };
+  const int rows = count(twice_area.norm() / length);
+  for (int i = 0; i < rows; ++i) {
+    const double up = (i + 0.5) / rows;
+    const int points = count((1 - up) * length);
+    for (int j = 0; j < points; ++j) {
+      const double along = (1 - up) * (j + 0.5) / points;
+      samples.points.push_back(own(Vector(a + along * (b - a) + up * (c - a))).cast<float>());
+      samples.normals.push_back((own.rotation * normal).cast<float>());
+    }
+  }
+}
+
 // The vertices of the faces, as a scan's samples are; where the faces are so large that their vertices do not tell the
 // surface (a CAD model), points spread evenly over the faces, about `distance` from each other. Samples that are seen
 // at a grazing angle lie on the faces that bridge a depth edge: they are left out.
@@ -208,24 +238,10 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const Rigid_moti
   double area_of_large_faces = 0;
   for (const auto& f : mesh.faces) {
     const double a = 0.5 * area_vector(mesh, f).norm();
-    if (a > 4 * distance * distance) area_of_large_faces += a;
+    if (a > area / 1000) area_of_large_faces += a;
   }
-  if (area_of_large_faces > 0.2 * area) {
-    for (const auto& f : mesh.faces) {
-      const Vector &a = mesh.points[std::size_t(f[0])], &b = mesh.points[std::size_t(f[1])],
-                   &c = mesh.points[std::size_t(f[2])];
-      const Vector normal = unit_or_zero(area_vector(a, b, c));
-      if (normal.isZero()) continue;
-      const double longest =
-          std::sqrt((std::max)({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-      const int n = int(std::ceil((std::min)(longest / distance, 2000.)));
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; i + j < n; ++j) {
-          const double u = (i + 1. / 3) / n, v = (j + 1. / 3) / n;
-          samples.points.push_back(own(Vector(a + u * (b - a) + v * (c - a))).cast<float>());
-          samples.normals.push_back(rotation * normal.cast<float>());
-        }
-    }
+  if (sensor.kind == Flat_sensor::UNKNOWN && area_of_large_faces > 0.2 * area) {
+    for (const auto& f : mesh.faces) sample_face(mesh, f, own, distance, samples);
     return samples;
   }
   constexpr double grazing = 0.12;
@@ -278,6 +294,13 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
   for (const auto& f : mesh.faces) area += 0.5 * area_vector(mesh, f).norm();
   if (!(area > 0)) return scan;
 
+  // What is not a surface but dust takes larger cells, until the surfels can be numbered.
+  const auto grouped = [](const std::vector<Vector_f>& p, const std::vector<Vector_f>& n, const std::vector<float>& w,
+                          float cell) {
+    Surfel_level level = group_samples(p, n, w, cell);
+    while (level.surfels.size() > Surfel_field::maximum_size) level = group_samples(p, n, w, cell *= 1.5f);
+    return level;
+  };
   // A surface cuts about 1.5 cells of a cubic grid for each area of the square of their edge length.
   const double finest = std::sqrt(1.5 * area / parameters.fine_surfels);
   const Oriented_samples samples = samples_of_faces(mesh, own, sensor, area, 0.5 * finest);
@@ -287,7 +310,7 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
   const double fine = (std::max)(2 * scan.spacing, finest);
   const double coarse = (std::max)(3.5 * scan.spacing, std::sqrt(1.5 * area / parameters.coarse_surfels));
 
-  scan.fine = group_samples(samples.points, samples.normals, {}, float(fine));
+  scan.fine = grouped(samples.points, samples.normals, {}, float(fine));
   std::vector<Vector_f> points, normals;
   points.reserve(scan.fine.surfels.size());
   normals.reserve(scan.fine.surfels.size());
@@ -295,7 +318,7 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
     points.push_back(s.position);
     normals.push_back(s.normal);
   }
-  scan.coarse = group_samples(points, normals, scan.fine.weights, float(coarse));
+  scan.coarse = grouped(points, normals, scan.fine.weights, float(coarse));
   describe_surfels(scan.coarse);
   scan.fine.field = Surfel_field(scan.fine.surfels, scan.fine.spacing, 1.6f * scan.fine.spacing);
   scan.coarse.field = Surfel_field(scan.coarse.surfels, 0.7f * scan.coarse.spacing, 2.f * scan.coarse.spacing);

@@ -57,9 +57,10 @@ public:
     }
     const float margin = reach + voxel;
     for (int i = 0; i < 3; ++i) {
-      // What is more than maximum_blocks away from the middle (a spike) is not represented.
+      // What is more than maximum_blocks wide (a spike) is represented around the median.
       const float limit = 0.5f * float(maximum_blocks) * 4 * voxel;
-      const float middle = 0.5f * (low[i] + high[i]);
+      float middle = 0.5f * (low[i] + high[i]);
+      if (high[i] - low[i] + 2 * margin > 2 * limit) middle = median(surfels, i);
       m_low[i] = (std::max)(low[i] - margin, middle - limit);
       const float top = (std::min)(high[i] + margin, middle + limit);
       m_blocks[std::size_t(i)] = (std::min)(maximum_blocks, int((top - m_low[i]) * m_scale * 0.25f) + 1);
@@ -118,6 +119,16 @@ public:
 private:
   static constexpr std::uint16_t empty = 65535;
   static constexpr int maximum_blocks = 256;
+
+  static float median(const std::vector<Surfel>& surfels, int axis)
+  {
+    std::vector<float> values;
+    values.reserve(surfels.size());
+    for (const Surfel& s : surfels) values.push_back(s.position[axis]);
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  }
 
   std::size_t block_index(int x, int y, int z) const
   {

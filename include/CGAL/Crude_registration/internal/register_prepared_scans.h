@@ -179,15 +179,34 @@ inline Rigid_motion exponential(const Vector_6& twist, double t)
   return m;
 }
 
-// Whether the scans agree as well after two spacings of the simplified surface along `twist`, either way: the
-// information matrix alone calls motions free that are merely uncertain.
+// The small motions (w, v) that leave the scans in agreement, most uncertain first: those along which they agree as
+// well two spacings of the simplified surface further on, either way. What the information matrix says is uncertain is
+// where to look; whether it is free, the surfaces themselves say.
 template <class Search>
-bool is_free(const Search& search, const Rigid_motion& motion, const Vector_6& twist, double spacing)
+std::vector<Vector_6> free_motions(const Search& search, const Rigid_motion& motion, const Matrix_6& covariance,
+                                   const Vector& centre, double radius, double spacing)
 {
+  // In units of length, about the centre.
+  Matrix cross;
+  cross << 0, -centre.z(), centre.y(), centre.z(), 0, -centre.x(), -centre.y(), centre.x(), 0;
+  Matrix_6 to_centre = Matrix_6::Identity(), from_centre = Matrix_6::Identity();
+  to_centre.topLeftCorner<3, 3>() *= radius;
+  to_centre.bottomLeftCorner<3, 3>() = -cross; // v + w x c
+  from_centre.topLeftCorner<3, 3>() /= radius;
+  from_centre.bottomLeftCorner<3, 3>() = cross / radius;
+  const Eigen::SelfAdjointEigenSolver<Matrix_6> eigen(to_centre * covariance * to_centre.transpose());
   constexpr float as_well = 0.75f;
   const float there = search.assess(to_pose(motion)).score();
-  return search.assess(to_pose(exponential(twist, 2 * spacing) * motion)).score() > as_well * there ||
-         search.assess(to_pose(exponential(twist, -2 * spacing) * motion)).score() > as_well * there;
+  std::vector<Vector_6> free;
+  for (int k = 5; k >= 0; --k) {
+    const Vector_6 twist = from_centre * eigen.eigenvectors().col(k);
+    const auto score = [&](double distance) {
+      return search.assess(to_pose(exponential(twist, distance) * motion)).score();
+    };
+    if (!((std::max)(score(2 * spacing), score(-2 * spacing)) > as_well * there)) break;
+    free.push_back(twist);
+  }
+  return free;
 }
 
 // a and b are source and target.
@@ -232,12 +251,12 @@ inline Registration_outcome register_prepared_scans(const Prepared_scan& a, cons
     const Rigid_motion& own = outcome.refinement.motion;
     outcome.overlap =
         outcome.is_swapped ? overlap(target, source, to_pose(own.inverse())) : overlap(source, target, to_pose(own));
-    std::vector<Vector_6> free;
     const Matrix_6 target_to_input = adjoint(outcome.target_frame.inverse());
-    for (const Vector_6& m : outcome.refinement.free_motions)
-      if (is_free(search, own, m, double(source.coarse.spacing))) free.push_back(target_to_input * m);
-    outcome.free_motions =
-        name_free_motions(free, outcome.target_frame.inverse()(own.translation), 0.25 * source.extent);
+    const double radius = 0.25 * source.extent;
+    std::vector<Vector_6> free = free_motions(search, own, outcome.refinement.covariance, own.translation, radius,
+                                              double(source.coarse.spacing));
+    for (Vector_6& m : free) m = target_to_input * m;
+    outcome.free_motions = name_free_motions(free, outcome.target_frame.inverse()(own.translation), radius);
     // The deviation follows the motion; seen from the other side it goes through the inverse.
     const Matrix_6 to_input =
         outcome.is_swapped ? Matrix_6(adjoint(outcome.motion) * target_to_input) : target_to_input;

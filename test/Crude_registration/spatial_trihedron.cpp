@@ -1,0 +1,282 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#define BOOST_TEST_MODULE spatial_trihedron
+#include <boost/test/unit_test.hpp>
+
+#include <CGAL/Crude_registration/Spatial_trihedron.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include "generated_surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CR = CGAL::Crude_registration;
+using CR::Spatial_trihedron;
+using CR::internal::Flat_mesh;
+using CR::internal::Trihedron_options;
+using CR::internal::Vector;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+namespace {
+
+bool operator==(const Spatial_trihedron& a, const Spatial_trihedron& b)
+{
+  return a.origin == b.origin && a.ends == b.ends;
+}
+
+std::vector<std::uint8_t> all_inside(const std::vector<Vector>& points)
+{
+  return std::vector<std::uint8_t>(points.size(), 1);
+}
+
+std::vector<std::uint8_t> inside_of(const Flat_mesh& mesh)
+{
+  std::vector<std::uint8_t> inside = CR::internal::border_flags(mesh);
+  for (std::uint8_t& i : inside) i = !i;
+  return inside;
+}
+
+Trihedron_options options(double least, double most)
+{
+  Trihedron_options o;
+  o.minimum_length = least;
+  o.maximum_length = most;
+  return o;
+}
+
+Mesh to_surface_mesh(const Flat_mesh& flat)
+{
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> v;
+  for (const Vector& p : flat.points) v.push_back(mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
+  for (const auto& f : flat.faces)
+    mesh.add_face(v[std::size_t(f[0])], v[std::size_t(f[1])], v[std::size_t(f[2])]);
+  return mesh;
+}
+
+double volume(const std::vector<Vector>& p, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d)
+{
+  const Vector& o = p[std::size_t(a)];
+  return (p[std::size_t(b)] - o).cross(p[std::size_t(c)] - o).dot(p[std::size_t(d)] - o);
+}
+
+bool says(const std::function<void()>& call, const std::string& start, const std::string& word)
+{
+  try {
+    call();
+  } catch (const std::invalid_argument& e) {
+    const std::string what = e.what();
+    BOOST_TEST_MESSAGE(what);
+    return what.compare(0, start.size(), start) == 0 && what.find(word) != std::string::npos;
+  }
+  return false;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(arms_are_within_their_limits_and_inside_the_mesh)
+{
+  const Flat_mesh mesh = generated::bumps(24);
+  const std::vector<std::uint8_t> inside = inside_of(mesh);
+  const auto trihedra = CR::internal::spatial_trihedra(mesh.points, inside, options(0.1, 0.3));
+  std::size_t number_inside = 0;
+  for (std::uint8_t i : inside) number_inside += i;
+  // Every vertex of this mesh has others in reach, in no plane with it.
+  BOOST_TEST(trihedra.size() == number_inside);
+  for (const Spatial_trihedron& t : trihedra) {
+    BOOST_TEST(inside[std::size_t(t.origin)] == 1);
+    for (std::int32_t e : t.ends) {
+      BOOST_TEST(inside[std::size_t(e)] == 1);
+      const double length = (mesh.points[std::size_t(e)] - mesh.points[std::size_t(t.origin)]).norm();
+      BOOST_TEST(length >= 0.1);
+      BOOST_TEST(length <= 0.3);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(arms_are_as_long_and_as_orthogonal_as_the_surface_allows)
+{
+  // On a sphere of radius 1, seen from a vertex, the arms that make the largest volume with ends within a distance of
+  // sqrt(2) reach all of it; a quarter of the largest possible volume is far from degenerate.
+  const Flat_mesh mesh = generated::sphere(12, 1);
+  const auto trihedra = CR::internal::spatial_trihedra(mesh.points, inside_of(mesh), options(0, std::sqrt(2.)));
+  BOOST_TEST_REQUIRE(trihedra.size() == mesh.points.size());
+  for (const Spatial_trihedron& t : trihedra)
+    BOOST_TEST(std::abs(volume(mesh.points, t.origin, t.ends[0], t.ends[1], t.ends[2])) > 0.25);
+
+  // No end makes more volume with the first two than the third does.
+  const Flat_mesh bumps = generated::bumps(12);
+  for (const Spatial_trihedron& t :
+       CR::internal::spatial_trihedra(bumps.points, all_inside(bumps.points), options(0, 0.4))) {
+    const double largest = std::abs(volume(bumps.points, t.origin, t.ends[0], t.ends[1], t.ends[2]));
+    for (std::size_t i = 0; i < bumps.points.size(); ++i)
+      if ((bumps.points[i] - bumps.points[std::size_t(t.origin)]).norm() <= 0.4)
+        BOOST_TEST(std::abs(volume(bumps.points, t.origin, t.ends[0], t.ends[1], std::int32_t(i))) <=
+                   largest * (1 + 1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(limits_are_exact)
+{
+  // A Pythagorean tetrapod: arms of length exactly 5 in units of 2^-20, which double represents.
+  const double unit = std::ldexp(1., -20);
+  const std::vector<Vector> points = {Vector(0, 0, 0), unit * Vector(3, 4, 0), unit * Vector(-4, 3, 0),
+                                      unit * Vector(0, 0, 5)};
+  std::vector<std::uint8_t> only_first = {1, 1, 1, 1};
+  const auto from_first = [&](const std::vector<Vector>& p, double least, double most) {
+    std::size_t n = 0;
+    for (const auto& t : CR::internal::spatial_trihedra(p, only_first, options(least, most))) n += t.origin == 0;
+    return n;
+  };
+  BOOST_TEST(from_first(points, 5 * unit, 6 * unit) == 1u);
+  BOOST_TEST(from_first(points, 0, 5 * unit) == 1u);
+  BOOST_TEST(from_first(points, std::nextafter(5 * unit, 1.), 6 * unit) == 0u);
+  BOOST_TEST(from_first(points, 0, std::nextafter(5 * unit, 0.)) == 0u);
+  std::vector<Vector> longer = points;
+  longer[3][2] = std::nextafter(longer[3][2], 1.);
+  BOOST_TEST(from_first(longer, 0, 5 * unit) == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(coplanar_vertices_make_no_trihedron)
+{
+  // Points of the plane z = 3x + 5y with integer coordinates so large that products of them are rounded.
+  generated::Random random(3);
+  std::vector<Vector> points;
+  for (int i = 0; i < 40; ++i) {
+    const double x = std::round(std::ldexp(random.symmetric(), 40)), y = std::round(std::ldexp(random.symmetric(), 40));
+    points.emplace_back(x, y, 3 * x + 5 * y);
+  }
+  bool is_rounded = false;
+  for (std::int32_t i = 3; i < 40; ++i) is_rounded = is_rounded || volume(points, 0, 1, 2, i) != 0;
+  BOOST_TEST(is_rounded); // or the test would say nothing
+  const double reach = std::ldexp(1., 44);
+  BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, reach)).empty());
+
+  // One step of one coordinate out of the plane is enough.
+  points[7][2] = std::nextafter(points[7][2], reach);
+  const auto trihedra = CR::internal::spatial_trihedra(points, all_inside(points), options(0, reach));
+  for (const Spatial_trihedron& t : trihedra)
+    BOOST_TEST((t.origin == 7 || std::find(t.ends.begin(), t.ends.end(), 7) != t.ends.end()));
+}
+
+BOOST_AUTO_TEST_CASE(collinear_few_or_coincident_vertices_make_no_trihedron)
+{
+  std::vector<Vector> points;
+  BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, 1)).empty());
+  for (int i = 0; i < 10; ++i) points.emplace_back(i, 2 * i, -i);
+  BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, 100)).empty());
+  points = {Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0)};
+  BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, 100)).empty());
+  points.assign(10, Vector(1, 2, 3));
+  BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, 100)).empty());
+  points = {Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)};
+  BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, 0)).empty());
+  BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, 2)).size() == 4u);
+}
+
+BOOST_AUTO_TEST_CASE(the_choice_depends_on_neither_frame_nor_unit_nor_order)
+{
+  const Flat_mesh mesh = generated::bumps(16);
+  const auto inside = inside_of(mesh);
+  const auto expected = CR::internal::spatial_trihedra(mesh.points, inside, options(0.05, 0.35));
+  generated::Random random(5);
+  for (double scale : {1., 1e-3, 1e3}) {
+    const Flat_mesh moved = generated::moved(mesh, random.motion(2 * scale), scale);
+    const auto found = CR::internal::spatial_trihedra(moved.points, inside, options(0.05 * scale, 0.35 * scale));
+    BOOST_TEST(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
+  }
+  std::vector<std::int32_t> order(mesh.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = std::int32_t((i * 101 + 17) % order.size());
+  std::vector<Vector> points(order.size());
+  std::vector<std::uint8_t> shuffled_inside(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    points[std::size_t(order[i])] = mesh.points[i];
+    shuffled_inside[std::size_t(order[i])] = inside[i];
+  }
+  auto found = CR::internal::spatial_trihedra(points, shuffled_inside, options(0.05, 0.35));
+  BOOST_TEST_REQUIRE(found.size() == expected.size());
+  for (const Spatial_trihedron& t : expected) {
+    Spatial_trihedron renamed{order[std::size_t(t.origin)], {}};
+    for (std::size_t i = 0; i < 3; ++i) renamed.ends[i] = order[std::size_t(t.ends[i])];
+    BOOST_TEST((std::find(found.begin(), found.end(), renamed) != found.end()));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(several_trihedra_a_vertex_at_several_scales)
+{
+  const Flat_mesh mesh = generated::bumps(20);
+  const auto inside = inside_of(mesh);
+  Trihedron_options o = options(0.1, 0.4);
+  const auto single = CR::internal::spatial_trihedra(mesh.points, inside, o);
+  o.trihedra_per_scale = 3;
+  const auto three = CR::internal::spatial_trihedra(mesh.points, inside, o);
+  BOOST_TEST(three.size() > 2 * single.size());
+  // The first one of each is the single one, and the first arms differ.
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < three.size(); ++i) {
+    const bool is_first = i == 0 || three[i].origin != three[i - 1].origin;
+    if (is_first) BOOST_TEST((three[i] == single[next++]));
+    else BOOST_TEST(three[i].ends[0] != three[i - 1].ends[0]);
+  }
+  o.trihedra_per_scale = 1;
+  o.scales = {1, 0.5};
+  const auto two_scales = CR::internal::spatial_trihedra(mesh.points, inside, o);
+  BOOST_TEST(two_scales.size() == 2 * single.size());
+  for (std::size_t i = single.size(); i < two_scales.size(); ++i)
+    for (std::int32_t e : two_scales[i].ends)
+      BOOST_TEST((mesh.points[std::size_t(e)] - mesh.points[std::size_t(two_scales[i].origin)]).norm() <= 0.25);
+}
+
+BOOST_AUTO_TEST_CASE(of_a_mesh_with_the_papers_shares)
+{
+  const Flat_mesh flat = generated::bumps(20);
+  const Mesh mesh = to_surface_mesh(flat);
+  const double extent = CR::scan_extent(mesh).mean();
+  const auto trihedra = CR::spatial_trihedra(mesh, CR::parameters::minimum_extent(0.2).maximum_extent(0.5));
+  BOOST_TEST(!trihedra.empty());
+  const auto borders = CR::internal::border_flags(flat);
+  for (const Spatial_trihedron& t : trihedra) {
+    BOOST_TEST(borders[std::size_t(t.origin)] == 0);
+    for (std::int32_t e : t.ends) {
+      BOOST_TEST(borders[std::size_t(e)] == 0);
+      const double share = (flat.points[std::size_t(e)] - flat.points[std::size_t(t.origin)]).norm() / extent;
+      BOOST_TEST(share >= 0.2);
+      BOOST_TEST(share <= 0.5);
+    }
+  }
+  Mesh empty;
+  BOOST_TEST(CR::spatial_trihedra(empty).empty());
+}
+
+BOOST_AUTO_TEST_CASE(wrong_use_is_named)
+{
+  const Mesh mesh = to_surface_mesh(generated::bumps(4));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  namespace P = CR::parameters;
+  const auto call = [&](auto np) { return [&mesh, np] { CR::spatial_trihedra(mesh, np); }; };
+  BOOST_TEST(says(call(P::minimum_extent(0.4).maximum_extent(0.3)), "spatial_trihedra", "minimum_extent"));
+  BOOST_TEST(says(call(P::minimum_extent(0.3).maximum_extent(0.3)), "spatial_trihedra", "minimum_extent"));
+  BOOST_TEST(says(call(P::minimum_extent(-0.1)), "spatial_trihedra", "minimum_extent"));
+  BOOST_TEST(says(call(P::maximum_extent(nan)), "spatial_trihedra", "maximum_extent"));
+  BOOST_TEST(says(call(P::maximum_extent(0.)), "spatial_trihedra", "maximum_extent"));
+  Mesh broken = mesh;
+  broken.point(*broken.vertices().begin()) = Kernel::Point_3(0, nan, 0);
+  BOOST_TEST(says([&] { CR::spatial_trihedra(broken); }, "spatial_trihedra", "mesh"));
+}
