@@ -537,7 +537,7 @@ BOOST_AUTO_TEST_CASE(a_spike_and_an_island_far_away)
 }
 
 // Far more surface elements than surfels can be.
-BOOST_AUTO_TEST_CASE(dust)
+BOOST_AUTO_TEST_CASE(dust_takes_larger_cells)
 {
   Flat_mesh dust;
   Random random(4);

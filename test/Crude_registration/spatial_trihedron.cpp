@@ -36,11 +36,6 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 namespace {
 
-bool operator==(const Spatial_trihedron& a, const Spatial_trihedron& b)
-{
-  return a.origin == b.origin && a.ends == b.ends;
-}
-
 std::vector<std::uint8_t> all_inside(const std::vector<Vector>& points)
 {
   return std::vector<std::uint8_t>(points.size(), 1);

@@ -43,6 +43,12 @@ struct Spatial_trihedron
 {
   std::int32_t origin;              ///< \f$ V \f$
   std::array<std::int32_t, 3> ends; ///< \f$ v_1, v_2, v_3 \f$
+
+  friend bool operator==(const Spatial_trihedron& a, const Spatial_trihedron& b)
+  {
+    return a.origin == b.origin && a.ends == b.ends;
+  }
+  friend bool operator!=(const Spatial_trihedron& a, const Spatial_trihedron& b) { return !(a == b); }
 };
 
 namespace internal {

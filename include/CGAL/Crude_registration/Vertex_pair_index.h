@@ -102,14 +102,15 @@ public:
    * \param normals their unit normals; vertices with a null normal take no part. Empty: pairs are described by their
    * distance alone, the angles are 0
    * \param minimum_length,maximum_length the range of distances, in the unit of the points
-   * \param length_cell,angle_cell the size of the grid's cells: best about half the tolerances of the queries
+   * \param length_cell,angle_cell the size of the grid's cells: best about half the tolerances of the queries.
+   * Cells get larger than that where they would outnumber the pairs
    *
    * \throws std::invalid_argument if the ranges differ in length, or a number is not finite, negative, or, for the
    * cells, zero.
    */
   Vertex_pair_index(const std::vector<Vector>& points, const std::vector<Vector>& normals, double minimum_length,
                     double maximum_length, double length_cell, double angle_cell)
-      : m_minimum_length(float(minimum_length)), m_length_scale(float(1 / length_cell))
+      : m_minimum_length(float(minimum_length))
   {
     if (!normals.empty() && normals.size() != points.size())
       throw std::invalid_argument("Vertex_pair_index: points and normals differ in length");
@@ -117,15 +118,6 @@ public:
       throw std::invalid_argument("Vertex_pair_index: minimum_length and maximum_length are no range of distances");
     if (!(length_cell > 0 && angle_cell > 0) || !std::isfinite(length_cell) || !std::isfinite(angle_cell))
       throw std::invalid_argument("Vertex_pair_index: length_cell and angle_cell have to be finite, above zero");
-
-    m_angle_cells = m_torsion_cells = 1;
-    if (!normals.empty()) {
-      m_angle_cells = (std::min)((std::max)(int(pi / float(angle_cell)), 1), 90);
-      m_torsion_cells = 2 * m_angle_cells;
-    }
-    m_angle_scale = float(m_angle_cells) / pi;
-    m_torsion_scale = float(m_torsion_cells) / two_pi;
-    m_length_cells = int((std::min)((maximum_length - minimum_length) / length_cell, 1000.)) + 1;
 
     // Each unordered pair is described once: seen from its other end the angles are supplements, exchanged, and the
     // torsion is the same.
@@ -144,10 +136,21 @@ public:
         });
       }
     }
-    m_begin.assign(std::size_t(m_length_cells) * std::size_t(m_angle_cells) * std::size_t(m_angle_cells) *
-                           std::size_t(m_torsion_cells) +
-                       1,
-                   0);
+    // No more cells than there are pairs, so that memory stays linear.
+    std::size_t cells = 0;
+    do {
+      m_angle_cells = normals.empty() ? 1 : (std::max)(int((std::min)(pi / float(angle_cell), 1e3f)), 1);
+      m_torsion_cells = normals.empty() ? 1 : 2 * m_angle_cells;
+      m_length_cells = int((std::min)((maximum_length - minimum_length) / length_cell, 1e3)) + 1;
+      m_length_scale = float(1 / length_cell);
+      cells = row_of(m_length_cells, 0, 0);
+      length_cell *= 1.25;
+      angle_cell *= 1.25;
+    } while (cells > 2 * pairs.size() + 1 && (m_length_cells > 1 || m_angle_cells > 1));
+    m_angle_scale = float(m_angle_cells) / pi;
+    m_torsion_scale = float(m_torsion_cells) / two_pi;
+
+    m_begin.assign(cells + 1, 0);
     for (const Pair& p : pairs) {
       ++m_begin[cell(p.descriptor) + 1];
       ++m_begin[cell(reversed(p, normals.empty()).descriptor) + 1];

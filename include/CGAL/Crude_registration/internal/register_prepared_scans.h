@@ -96,20 +96,22 @@ inline bool are_swapped(const Prepared_scan& source, const Prepared_scan& target
   return source.extent > target.extent;
 }
 
-// The confidence in the best pose, a logistic function of three things: its score, against the scores that wrong poses
-// reach by chance; its lead over the next distinct pose; and how well the scans fit where they overlap, in units of
-// their noise. Right poses fit to about 1.5, whatever their overlap; wrong ones to 2.5 and more.
-inline double confidence(const std::vector<Judged_pose>& poses, double misfit)
+// The confidence in the best pose, a logistic function of four things: its score, against the scores that wrong poses
+// reach by chance; its lead over the next distinct pose; how well the scans fit where they overlap, in units of their
+// noise (right poses to about 1.5, whatever their overlap; wrong ones mostly to 2.5 and more); and how many motions the
+// correspondences hardly determine, as matches by chance are of smooth pieces of surface.
+inline double confidence(const std::vector<Judged_pose>& poses, double misfit, std::size_t weak_motions)
 {
   if (poses.empty() || !(poses.front().score() > 0)) return 0;
   const double score = double(poses.front().score());
   const double ratio = poses.size() > 1 ? (std::max)(0., double(poses[1].score())) / score : 0;
-  const double evidence =
-      3 * std::log(score / 0.07) + (std::min)(14 * (0.75 - ratio), 2.) + (std::min)(3 * (2.2 - misfit), 3.);
+  const double evidence = 4 * std::log(score / 0.07) + (std::min)(14 * (0.75 - ratio), 2.) +
+                          (std::min)(3 * (2.2 - misfit), 2.) - double(weak_motions);
   return 1 / (1 + std::exp(-evidence));
 }
 
-inline Verdict judge_poses(const std::vector<Judged_pose>& poses, double misfit, const Free_motions& free)
+inline Verdict judge_poses(const std::vector<Judged_pose>& poses, double misfit, std::size_t weak_motions,
+                           const Free_motions& free)
 {
   constexpr double believed = 0.9, // confidence
       plausible = 0.1;             // score
@@ -118,7 +120,7 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, double misfit,
     verdict.reason = "no overlap found: no motion brings any part of the scans together";
     return verdict;
   }
-  verdict.confidence = confidence(poses, misfit);
+  verdict.confidence = confidence(poses, misfit, weak_motions);
   const bool is_plausible = poses.front().score() >= plausible;
   if (is_plausible && !free.motions.empty()) {
     verdict.status = AMBIGUOUS;
@@ -263,7 +265,8 @@ inline Registration_outcome register_prepared_scans(const Prepared_scan& a, cons
     outcome.covariance = to_input * outcome.refinement.covariance * to_input.transpose();
     outcome.misfit = outcome.refinement.residual / (std::max)(noise(source.fine), noise(target.fine));
   }
-  outcome.verdict = judge_poses(outcome.poses, outcome.misfit, outcome.free_motions);
+  outcome.verdict =
+      judge_poses(outcome.poses, outcome.misfit, outcome.refinement.free_motions.size(), outcome.free_motions);
   outcome.refine_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
   return outcome;
 }
