@@ -61,8 +61,7 @@ Mesh to_surface_mesh(const Flat_mesh& flat)
   Mesh mesh;
   std::vector<Mesh::Vertex_index> v;
   for (const Vector& p : flat.points) v.push_back(mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
-  for (const auto& f : flat.faces)
-    mesh.add_face(v[std::size_t(f[0])], v[std::size_t(f[1])], v[std::size_t(f[2])]);
+  for (const auto& f : flat.faces) mesh.add_face(v[std::size_t(f[0])], v[std::size_t(f[1])], v[std::size_t(f[2])]);
   return mesh;
 }
 
