@@ -5,52 +5,49 @@ file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/inclu
 file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.cpp
      ${PROJECT_SOURCE_DIR}/benchmark/*.cpp ${PROJECT_SOURCE_DIR}/test/*.cpp)
 
-# Every header is compiled alone, twice in a row, by each compiler there is, with all warnings as errors. One file
-# carries the compile flags of all.
+# Every header is compiled alone, twice in a row, with all warnings as errors: by clang++ where it is there, two to three
+# times faster at this than g++, which meets all headers in the programs. One file carries the compile flags of all.
+find_program(CRUDE_REGISTRATION_HEADER_COMPILER NAMES clang++-14 clang++)
+mark_as_advanced(CRUDE_REGISTRATION_HEADER_COMPILER)
+if(CRUDE_REGISTRATION_HEADER_COMPILER)
+  set(header_compiler ${CRUDE_REGISTRATION_HEADER_COMPILER})
+else()
+  set(header_compiler ${CMAKE_CXX_COMPILER})
+endif()
 file(WRITE ${PROJECT_BINARY_DIR}/headers/flags.cpp "")
 add_library(headers_alone_flags OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers/flags.cpp)
 target_link_libraries(headers_alone_flags PRIVATE CGAL::CGAL CGAL::Eigen3_support
   $<TARGET_NAME_IF_EXISTS:CGAL::TBB_support>)
 set(includes "$<FILTER:$<TARGET_PROPERTY:headers_alone_flags,INCLUDE_DIRECTORIES>,EXCLUDE,^/usr/include(/[^/]*-linux-[^/]*)?$>")
 set(definitions "$<TARGET_PROPERTY:headers_alone_flags,COMPILE_DEFINITIONS>")
-
-find_program(CRUDE_REGISTRATION_GCC NAMES g++ g++-12)
-find_program(CRUDE_REGISTRATION_CLANG NAMES clang++ clang++-14)
-mark_as_advanced(CRUDE_REGISTRATION_GCC CRUDE_REGISTRATION_CLANG)
-include(ProcessorCount)
-ProcessorCount(processors)
-if(CMAKE_GENERATOR MATCHES "Ninja")
-  set(keep_going -- -k 0)
-endif()
-foreach(kind gcc clang)
-  string(TOUPPER CRUDE_REGISTRATION_${kind} compiler)
-  if(NOT ${compiler})
-    continue()
-  endif()
-  set(stamps "")
-  foreach(header IN LISTS headers)
-    string(MAKE_C_IDENTIFIER ${header} name)
-    set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
-    set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.${kind})
-    file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}> // NOLINT: guarded\n")
-    add_custom_command(OUTPUT ${stamp}
-      COMMAND ${${compiler}} -std=c++17 -fsyntax-only -frounding-math -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
-              -I${PROJECT_SOURCE_DIR}/include
-              "$<$<BOOL:${includes}>:-isystem$<JOIN:${includes},;-isystem>>"
-              "$<$<BOOL:${definitions}>:-D$<JOIN:${definitions},;-D>>"
-              -MMD -MT ${stamp} -MF ${stamp}.d ${source}
-      COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
-      DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${header} alone (${kind})")
-    list(APPEND stamps ${stamp})
-  endforeach()
-  add_custom_target(headers_alone_${kind} DEPENDS ${stamps})
-  if(CRUDE_REGISTRATION_WITH_TESTS)
-    add_test(NAME headers_alone_${kind}
-      COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target headers_alone_${kind} --parallel ${processors}
-              ${keep_going})
-    set_tests_properties(headers_alone_${kind} PROPERTIES RUN_SERIAL ON TIMEOUT 900)
-  endif()
+set(stamps "")
+foreach(header IN LISTS headers)
+  string(MAKE_C_IDENTIFIER ${header} name)
+  set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
+  set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.stamp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
+  add_custom_command(OUTPUT ${stamp}
+    COMMAND ${header_compiler} -std=c++17 -fsyntax-only -frounding-math -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+            -Werror -I${PROJECT_SOURCE_DIR}/include
+            "$<$<BOOL:${includes}>:-isystem$<JOIN:${includes},;-isystem>>"
+            "$<$<BOOL:${definitions}>:-D$<JOIN:${definitions},;-D>>"
+            -MMD -MT ${stamp} -MF ${stamp}.d ${source}
+    COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
+    DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${header} alone")
+  list(APPEND stamps ${stamp})
 endforeach()
+add_custom_target(headers_alone DEPENDS ${stamps})
+if(CRUDE_REGISTRATION_WITH_TESTS)
+  include(ProcessorCount)
+  ProcessorCount(processors)
+  set(keep_going "")
+  if(CMAKE_GENERATOR MATCHES "Ninja")
+    set(keep_going -- -k 0)
+  endif()
+  add_test(NAME headers_alone
+    COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target headers_alone --parallel ${processors} ${keep_going})
+  set_tests_properties(headers_alone PROPERTIES RUN_SERIAL ON TIMEOUT 900)
+endif()
 
 # Formatting: the answer depends on the version.
 find_program(CRUDE_REGISTRATION_CLANG_FORMAT NAMES clang-format-14)
