@@ -186,7 +186,7 @@ private:
   void fit_central()
   {
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(12, 12);
-    for (int i = 0; i < 2; ++i) {
+    for (Eigen::Index i = 0; i < 2; ++i) {
       a.block<4, 4>(4 * i, 4 * i) = m_moments;
       a.block<4, 4>(4 * i, 8) = a.block<4, 4>(8, 4 * i) = -m_axes[static_cast<std::size_t>(i)].first;
       a.block<4, 4>(8, 8) += m_axes[static_cast<std::size_t>(i)].second;
@@ -194,7 +194,7 @@ private:
     Eigen::VectorXd h;
     m_has_central = null_vector(a, h) && h(11) != 0;
     if (!m_has_central) return;
-    for (int i = 0; i < 3; ++i) m_central.row(i) = h.segment<4>(4 * i).transpose() / h(11);
+    for (Eigen::Index i = 0; i < 3; ++i) m_central.row(i) = h.segment<4>(4 * i).transpose() / h(11);
   }
 
   // root mean squares; a denominator that changes its sign within the scan has no meaning as a distance from a sensor
@@ -323,11 +323,11 @@ private:
   double m_cells = 1;
   Matrix_4 m_moments = Matrix_4::Zero();
   std::array<Axis, 2> m_axes;
-  bool m_is_flat = true;
   Matrix m_inverse_covariance = Matrix::Zero();
-  bool m_has_central = false;
   Eigen::Matrix<double, 3, 4> m_central = Eigen::Matrix<double, 3, 4>::Zero();
   double m_central_residual = 0;
+  bool m_is_flat = true;
+  bool m_has_central = false;
 };
 
 } // namespace internal

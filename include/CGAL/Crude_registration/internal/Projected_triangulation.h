@@ -172,7 +172,7 @@ private:
   }
 
   const std::vector<Vector>& m_points;
-  const Flat_sensor m_sensor;
+  const Flat_sensor& m_sensor;
   const double m_ratio;
   std::vector<double> m_ranges;     // perspective only
   std::vector<Vector> m_directions; // perspective only: unit, from the viewpoint

@@ -69,7 +69,7 @@ private:
     Matrix covariance = Matrix::Zero();
     for (const Vector& p : m_points) covariance += (p - m_centroid) * (p - m_centroid).transpose();
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
-    const Matrix axes = solver.eigenvectors();
+    const Matrix& axes = solver.eigenvectors();
     m_is_line = !(solver.eigenvalues()[1] > 1e-14 * solver.eigenvalues()[2]); // or one point, many times
     m_local.reserve(m_points.size());
     Vector third = Vector::Zero();
