@@ -549,15 +549,3 @@ BOOST_AUTO_TEST_CASE(dust_takes_larger_cells)
   }
   check_finite(prepare_scan(dust, no_sensor));
 }
-
-BOOST_AUTO_TEST_CASE(sizes_at_the_limits_of_numbers)
-{
-  const Flat_mesh small = generated::bumps(30);
-  for (double unit : {1e-300, 1e-100, 1e-42, 1e-38, 1e-30, 1e-20, 1e20, 1e30, 1e38, 1e42, 1e100, 1e150}) {
-    BOOST_TEST_CONTEXT("unit " << unit)
-    {
-      for (const Flat_sensor& sensor : {no_sensor, orthographic({0, 0, -1}), perspective(Vector(0, 0, 3 * unit))})
-        BOOST_CHECK_NO_THROW(check_finite(prepare_scan(generated::moved(small, Rigid_motion(), unit), sensor)));
-    }
-  }
-}

@@ -24,8 +24,7 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
-#if __has_include(<OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>)
-#define HAS_OPENMESH
+#ifdef CGAL_USE_OPENMESH
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
 #include <CGAL/boost/graph/graph_traits_PolyMesh_ArrayKernelT.h>
@@ -151,7 +150,7 @@ BOOST_AUTO_TEST_CASE(views_of_one_body_register_to_the_true_motion)
       CR::register_meshes(polyhedron, target.mesh, CR::parameters::maximum_extent(1.0).minimum_extent(0.0));
   BOOST_TEST_REQUIRE(from_polyhedron.status() == CR::REGISTERED);
   BOOST_TEST(displacement(source.mesh, motion(result), motion(from_polyhedron)) < 1e-3 * size(source.mesh));
-#ifdef HAS_OPENMESH
+#ifdef CGAL_USE_OPENMESH
   OpenMesh::PolyMesh_ArrayKernelT<> open_mesh; // of float
   CGAL::copy_face_graph(source.mesh, open_mesh);
   const auto from_open_mesh = CR::register_meshes(open_mesh, target.mesh, CR::parameters::geom_traits(Kernel()));
@@ -253,6 +252,9 @@ BOOST_AUTO_TEST_CASE(wrong_use_is_named)
           good, good,
           CR::parameters::viewpoint(Kernel::Point_3(0, 0, 9)).viewing_direction(Kernel::Vector_3(0, 0, -1))),
       std::invalid_argument, says("viewpoint"));
+  BOOST_CHECK_EXCEPTION(
+      CR::register_meshes(patch(20, [](double u, double v) { return Kernel::Point_3(1e20 * u, 1e20 * v, 0); }), good),
+      std::invalid_argument, says("source"));
   // Fewer than four usable vertices: a status, with its reason.
   Mesh triangle;
   triangle.add_face(triangle.add_vertex(Kernel::Point_3(0, 0, 0)), triangle.add_vertex(Kernel::Point_3(1, 0, 0)),

@@ -19,6 +19,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -161,6 +162,12 @@ private:
 
   void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor, const std::string& name)
   {
+    // Squares of lengths are computed in float.
+    constexpr double smallest = 1e-12, largest = 1e12;
+    double size = 0;
+    for (const internal::Vector& p : mesh.points) size = (std::max)(size, (p - mesh.points.front()).norm());
+    if (size > 0 && !(size > smallest && size < largest))
+      throw std::invalid_argument(name + ": its size is not between 1e-12 and 1e12: another unit of length is needed");
     m_prepared = internal::prepare_scan(mesh, sensor);
     if (m_prepared.number_of_samples == 0)
       throw std::invalid_argument(name + " has no surface: there is no face of positive area that the sensor can see");
