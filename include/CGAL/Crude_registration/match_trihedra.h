@@ -156,30 +156,26 @@ public:
     m_occupancy = Occupancy(m_points, tolerances.length, m_reach);
   }
 
+  // A trihedron with its ends in the order in which its search costs least: the pairs of D that may correspond to the
+  // first arm are tried one by one, so that arm is the first one that has fewest.
+  Spatial_trihedron rarest_first(Spatial_trihedron t) const
+  {
+    std::array<std::size_t, 3> looks;
+    for (std::size_t i = 0; i < 3; ++i)
+      looks[i] = m_index.number_of_looks(descriptor(t.origin, t.ends[i]),
+                                         pair_tolerance(source_frame(t.origin, t.ends[i]).lever));
+    const auto rarest = std::size_t(std::min_element(looks.begin(), looks.end()) - looks.begin());
+    const std::array<std::int32_t, 3> ends = t.ends;
+    for (std::size_t i = 0; i < 3; ++i) t.ends[i] = ends[(rarest + i) % 3];
+    return t;
+  }
+
   // output(vertices of D, places of the trihedron's vertices, places of those of D) for each correspondence.
   template <class Output>
   void operator()(const Spatial_trihedron& trihedron, Workspace& work, Output&& output) const
   {
     work.tried_for.resize(m_points.size(), 0);
-    // The pairs that the first arm finds are looked at one by one: the first is the arm that finds fewest.
-    std::array<std::int32_t, 4> s = {trihedron.origin, trihedron.ends[0], trihedron.ends[1], trihedron.ends[2]};
-    std::size_t first = 1, fewest = std::size_t(-1);
-    for (std::size_t i = 1; i < 4; ++i) {
-      const Pair_frame arm = source_frame(s[0], s[i]);
-      const std::size_t looks = m_index.number_of_looks(descriptor(s[0], s[i]), pair_tolerance(arm.lever));
-      if (looks < fewest) {
-        fewest = looks;
-        first = i;
-      }
-    }
-    if (fewest == 0) return;
-    std::rotate(s.begin() + 1, s.begin() + std::ptrdiff_t(first), s.end());
-    const auto undo = [&](const auto& a) {
-      auto result = a;
-      std::rotate(result.begin() + 1, result.end() - std::ptrdiff_t(first - 1), result.end());
-      return result;
-    };
-
+    const std::array<std::int32_t, 4> s = {trihedron.origin, trihedron.ends[0], trihedron.ends[1], trihedron.ends[2]};
     std::array<Vector, 4> x, normal;
     for (std::size_t i = 0; i < 4; ++i) {
       x[i] = m_s.points[std::size_t(s[i])];
@@ -195,10 +191,11 @@ public:
     const double along = frame.u.dot(a2 - a1 / 2), across_v = frame.v.dot(a2), across_w = frame.w.dot(a2);
     const double radius = std::hypot(across_v, across_w);
     const Vector second_normal = frame.local(normal[2]);
-    // The part of the circle that is in question, in steps of at most twice the tolerance: what is within the tolerance
-    // of a step's part of the circle is within sqrt(2) times the tolerance of its middle.
-    const double uncertainty = frame.uncertainty(m_tolerances.angle), least_cosine = std::cos(uncertainty);
-    const double steps = (std::max)(1., std::ceil(uncertainty * radius / tolerance));
+    // The part of the circle that is in question, in steps so short that what is within the tolerance of a step's part
+    // is within sqrt(2) times the tolerance of its middle.
+    const double uncertainty = frame.uncertainty(m_tolerances.angle);
+    const double least_cosine = uncertainty < CGAL_PI ? std::cos(uncertainty) : -2;
+    const double steps = std::ceil(uncertainty * (radius + tolerance) / tolerance);
     work.turns.clear();
     for (double i = 0; i < steps; ++i) {
       const double turn = uncertainty * ((2 * i + 1) / steps - 1);
@@ -259,9 +256,8 @@ public:
                 y[3] = m_points[c3];
                 // A small trihedron's place for v3 may reach to the other side of the plane: a mirror image.
                 if (handedness(y) != hand) return;
-                output(
-                    undo(std::array<std::int32_t, 4>{m_vertices[c0], m_vertices[c1], m_vertices[c2], m_vertices[c3]}),
-                    undo(x), undo(y));
+                output(std::array<std::int32_t, 4>{m_vertices[c0], m_vertices[c1], m_vertices[c2], m_vertices[c3]}, x,
+                       y);
               });
             });
           }

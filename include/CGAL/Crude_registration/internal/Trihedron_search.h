@@ -137,7 +137,7 @@ private:
     options.maximum_length = m_parameters.maximum_extent * m_s.extent;
     options.scales = pass.scales;
     options.trihedra_per_scale = pass.trihedra_per_scale;
-    const std::vector<Spatial_trihedron> trihedra = spatial_trihedra(m_s.vertices.points, m_s.vertices.inside, options);
+    std::vector<Spatial_trihedron> trihedra = spatial_trihedra(m_s.vertices.points, m_s.vertices.inside, options);
     if (trihedra.empty()) return;
     result.trihedra += trihedra.size();
 
@@ -173,7 +173,8 @@ private:
   }
 
   // The candidates of all trihedra, each applied and scored; the best few of each trihedron are returned, by trihedron.
-  std::vector<Scored_candidate> match(const Trihedron_pass& pass, const std::vector<Spatial_trihedron>& trihedra,
+  // The ends of the trihedra are put in order.
+  std::vector<Scored_candidate> match(const Trihedron_pass& pass, std::vector<Spatial_trihedron>& trihedra,
                                       std::size_t& count)
   {
     Match_tolerances tolerances;
@@ -197,6 +198,7 @@ private:
       std::vector<Scored_candidate> found;
       for (std::size_t t = k * chunk; t < (std::min)((k + 1) * chunk, trihedra.size()); ++t) {
         found.clear();
+        trihedra[t] = matching.rarest_first(trihedra[t]);
         matching(trihedra[t], work, [&](const auto& vertices, const auto& x, const auto& y) {
           Scored_candidate c;
           if (!candidate_motion(std::int32_t(t), vertices, x, y, c.candidate)) return;
