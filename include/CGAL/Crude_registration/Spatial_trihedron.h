@@ -198,6 +198,15 @@ std::array<double, 2> extent_parameters(const NamedParameters& np, const char* f
   return {f1, f2};
 }
 
+// One trihedron a vertex, with arms from f1 M to f2 M.
+inline Trihedron_options trihedron_options(const std::array<double, 2>& shares, double extent)
+{
+  Trihedron_options options;
+  options.minimum_length = shares[0] * extent;
+  options.maximum_length = shares[1] * extent;
+  return options;
+}
+
 } // namespace internal
 
 /*!
@@ -237,10 +246,7 @@ std::vector<Spatial_trihedron> spatial_trihedra(const FaceGraph& mesh,
   std::vector<std::uint8_t> inside(flat.points.size(), 0);
   for (const auto& f : flat.faces)
     for (std::int32_t v : f) inside[std::size_t(v)] = !borders[std::size_t(v)];
-  internal::Trihedron_options options;
-  options.minimum_length = shares[0] * extent;
-  options.maximum_length = shares[1] * extent;
-  return internal::spatial_trihedra(flat.points, inside, options);
+  return internal::spatial_trihedra(flat.points, inside, internal::trihedron_options(shares, extent));
 }
 
 } // namespace Crude_registration

@@ -264,8 +264,6 @@ public:
         });
   }
 
-  std::size_t number_of_pairs() const { return m_index.size(); }
-
 private:
   // Axes on a pair of points: u along the line, v towards the mean of the normals, w = u x v; without normals v is
   // any. `lever`: the smaller sine of the angles between the line and the normals.
@@ -473,7 +471,8 @@ struct Trihedron_match
  * \return the matches in the order of the trihedra
  *
  * \throws std::invalid_argument if a face of a mesh is not a triangle, a coordinate, normal or curvature is not finite,
- * the tolerance is not a finite number above zero, or not \f$ 0 \le f_1 < f_2 \f$.
+ * `source` has fewer than four vertices off its border or `target` fewer than four vertices (those without a normal do
+ * not count), the tolerance is not a finite number above zero, or not \f$ 0 \le f_1 < f_2 \f$.
  */
 template <class Kernel = Exact_predicates_inexact_constructions_kernel, class SourceGraph, class TargetGraph,
           class NamedParameters1 = parameters::Default_named_parameters,
@@ -482,22 +481,28 @@ std::vector<Trihedron_match<Kernel>> match_trihedra(const SourceGraph& source, c
                                                     const NamedParameters1& np_source = parameters::default_values(),
                                                     const NamedParameters2& np_target = parameters::default_values())
 {
-  const std::vector<Spatial_trihedron> trihedra = spatial_trihedra(source, np_source);
+  const std::array<double, 2> shares = internal::extent_parameters(np_source, "match_trihedra");
   const internal::Flat_mesh s_mesh = internal::to_flat_mesh(source, np_source, "match_trihedra", "source");
   const internal::Flat_mesh d_mesh = internal::to_flat_mesh(target, np_target, "match_trihedra", "target");
+  const internal::Matching_vertices s =
+      internal::given_matching_vertices(source, s_mesh, np_source, "match_trihedra", "source");
+  const internal::Matching_vertices d =
+      internal::given_matching_vertices(target, d_mesh, np_target, "match_trihedra", "target");
+  if (std::count(s.inside.begin(), s.inside.end(), 1) < 4)
+    throw std::invalid_argument("match_trihedra: source has fewer than four vertices off its border with a normal");
+  if (std::count_if(d.normals.begin(), d.normals.end(), [](const internal::Vector& n) { return !n.isZero(0); }) < 4)
+    throw std::invalid_argument("match_trihedra: target has fewer than four vertices with a normal");
+  const std::vector<Spatial_trihedron> trihedra = internal::spatial_trihedra(
+      s.points, s.inside,
+      internal::trihedron_options(shares, internal::scan_extent(s_mesh, np_source, "match_trihedra").mean()));
   internal::Match_tolerances tolerances;
   tolerances.length = internal::positive_parameter(
-      np_source, internal_np::tolerance,
-      // Of a mesh without faces nothing is asked.
-      (std::max)(0.7 * internal::median_edge_length(d_mesh), (std::numeric_limits<double>::min)()), "match_trihedra",
-      "tolerance");
+      np_source, internal_np::tolerance, 0.7 * internal::median_edge_length(d_mesh), "match_trihedra", "tolerance");
   tolerances.angle = 15 * CGAL_PI / 180;
   tolerances.curvature = 0.15 / tolerances.length;
 
   std::vector<Trihedron_match<Kernel>> matches;
-  for (const internal::Candidate_motion& c : internal::match_trihedra(
-           internal::given_matching_vertices(source, s_mesh, np_source, "match_trihedra", "source"), trihedra,
-           internal::given_matching_vertices(target, d_mesh, np_target, "match_trihedra", "target"), tolerances))
+  for (const internal::Candidate_motion& c : internal::match_trihedra(s, trihedra, d, tolerances))
     matches.push_back({trihedra[std::size_t(c.trihedron)],
                        {c.vertices[0], {c.vertices[1], c.vertices[2], c.vertices[3]}},
                        internal::to_aff_transformation<Kernel>(c.motion),

@@ -10,9 +10,8 @@
 
 #include <CGAL/Crude_registration/internal/Rigid_motion.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <locale>
 #include <sstream>
@@ -44,12 +43,12 @@ inline Free_motions name_free_motions(const std::vector<Eigen::Matrix<double, 6,
   for (Eigen::Index k = 0; k < n; ++k) {
     const Vector w = free[std::size_t(k)].head<3>(), v = free[std::size_t(k)].tail<3>();
     basis.col(k) << radius * w, v + w.cross(centre);
+    for (Eigen::Index i = 0; i < k; ++i) basis.col(k) -= basis.col(i).dot(basis.col(k)) * basis.col(i);
+    basis.col(k).normalize();
   }
-  basis =
-      Eigen::MatrixXd(Eigen::HouseholderQR<Eigen::MatrixXd>(basis).householderQ()) * Eigen::MatrixXd::Identity(6, n);
   // Its turns from the largest to none.
-  const Eigen::JacobiSVD<Eigen::MatrixXd> turns(basis.topRows(3), Eigen::ComputeFullV);
-  basis = basis * turns.matrixV();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> turns(basis.topRows(3).transpose() * basis.topRows(3));
+  basis = basis * turns.eigenvectors().rowwise().reverse();
 
   const auto text = [](const Vector& v) {
     std::ostringstream out;

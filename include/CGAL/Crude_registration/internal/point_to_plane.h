@@ -222,7 +222,7 @@ private:
   // The step; it has no part along motions about which the matches say nothing.
   Rigid_motion solve() const
   {
-    const Eigen::SelfAdjointEigenSolver<Matrix_6> eigen(m_normal_matrix);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m_normal_matrix); // of fixed size: 20 s to compile
     Vector_6 x = Vector_6::Zero();
     for (int k = 0; k < 6; ++k)
       if (eigen.eigenvalues()[k] > smallest_information())
@@ -301,7 +301,7 @@ private:
     // its standard deviation exceeds s. The eigenvectors v_k of A v = mu N v have v_k^T N v_k = 1 and, with them,
     // A^-1 = sum_k v_k v_k^T / mu_k.
     const Matrix_6 noise = 2 * noise_matrix() + smallest_information() * Matrix_6::Identity();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix_6> eigen(m_normal_matrix, noise);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m_normal_matrix, noise);
     for (int k = 0; k < 6; ++k) {
       const double information = eigen.eigenvalues()[k];
       const Vector_6 v = to_origin * eigen.eigenvectors().col(k);

@@ -96,10 +96,22 @@ inline bool are_swapped(const Prepared_scan& source, const Prepared_scan& target
   return source.extent > target.extent;
 }
 
+// The share of the best score from which on a distinct pose is as good as the best one.
+constexpr double as_good = 0.85;
+
+// How many distinct poses explain the scans as well as the best one, with it.
+inline std::size_t number_of_equals(const std::vector<Judged_pose>& poses)
+{
+  return std::size_t(std::count_if(poses.begin(), poses.end(), [&](const Judged_pose& p) {
+    return double(p.score()) >= as_good * double(poses.front().score());
+  }));
+}
+
 // The confidence in the best pose, a logistic function of four things: its score, against the scores that wrong poses
 // reach by chance; its lead over the next distinct pose; how well the scans fit where they overlap, in units of their
 // noise (right poses to about 1.5, whatever their overlap; wrong ones mostly to 2.5 and more); and how many motions the
-// correspondences hardly determine, as matches by chance are of smooth pieces of surface.
+// correspondences hardly determine, as matches by chance are of smooth pieces of surface. Poses that are equally good
+// share it.
 inline double confidence(const std::vector<Judged_pose>& poses, double misfit, std::size_t weak_motions)
 {
   if (poses.empty() || !(poses.front().score() > 0)) return 0;
@@ -107,7 +119,7 @@ inline double confidence(const std::vector<Judged_pose>& poses, double misfit, s
   const double ratio = poses.size() > 1 ? (std::max)(0., double(poses[1].score())) / score : 0;
   const double evidence = 4 * std::log(score / 0.07) + (std::min)(14 * (0.75 - ratio), 2.) +
                           (std::min)(3 * (2.2 - misfit), 2.) - double(weak_motions);
-  return 1 / (1 + std::exp(-evidence));
+  return (std::min)(1 / (1 + std::exp(-evidence)), 1. / double(number_of_equals(poses)));
 }
 
 inline Verdict judge_poses(const std::vector<Judged_pose>& poses, double misfit, std::size_t weak_motions,
@@ -123,6 +135,7 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, double misfit,
   verdict.confidence = confidence(poses, misfit, weak_motions);
   const bool is_plausible = poses.front().score() >= plausible;
   if (is_plausible && !free.motions.empty()) {
+    verdict.confidence = (std::min)(verdict.confidence, 0.5); // any other pose along the free motions is as good
     verdict.status = AMBIGUOUS;
     verdict.free_motions = free.motions;
     verdict.reason = free.surface.empty() ? "the overlap leaves motions free" : "the overlap is " + free.surface;
@@ -196,7 +209,7 @@ std::vector<Vector_6> free_motions(const Search& search, const Rigid_motion& mot
   to_centre.bottomLeftCorner<3, 3>() = -cross; // v + w x c
   from_centre.topLeftCorner<3, 3>() /= radius;
   from_centre.bottomLeftCorner<3, 3>() = cross / radius;
-  const Eigen::SelfAdjointEigenSolver<Matrix_6> eigen(to_centre * covariance * to_centre.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(to_centre * covariance * to_centre.transpose());
   constexpr float as_well = 0.75f;
   const float there = search.assess(to_pose(motion)).score();
   std::vector<Vector_6> free;

@@ -1,0 +1,553 @@
+#define BOOST_TEST_MODULE register_scans
+#include <boost/test/unit_test.hpp>
+
+#include "generated_surfaces.h"
+
+#include <CGAL/Crude_registration/make_statue.h>
+#include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/simulate_range_image.h>
+#include <CGAL/Crude_registration/triangulate_range_image.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+#ifdef CGAL_USE_OPENMESH
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized" // in OpenMesh
+#endif
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <CGAL/boost/graph/graph_traits_PolyMesh_ArrayKernelT.h>
+#endif
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CR = CGAL::Crude_registration;
+namespace p = CR::parameters;
+using CR::internal::Flat_mesh;
+using CR::internal::Matrix;
+using CR::internal::Rigid_motion;
+using CR::internal::to_rigid_motion;
+using CR::internal::Vector;
+using generated::pi;
+using generated::Random;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using Scan = CR::Scan<Kernel>;
+using Result = CR::Registration_result<Kernel>;
+using Image = CR::Range_image<Kernel>;
+
+namespace {
+
+// A view of a statue: a perspective range image of about 13,000 samples, in the sensor's own frame.
+struct View
+{
+  Image image;
+  Rigid_motion scene_from_scan;
+  Scan scan;
+  Vector centre; // of the statue, in the scan's frame
+};
+
+// The view of statue `seed` from the direction of an angle in degrees. Made once.
+const View& view(unsigned seed, int degrees, double noise = 0.2)
+{
+  static std::map<unsigned, CR::Simulated_scene> scenes;
+  static std::map<std::tuple<unsigned, int, double>, View> views;
+  auto scene = scenes.find(seed);
+  if (scene == scenes.end()) {
+    Mesh statue;
+    CR::make_statue(statue, 72, p::random_seed(seed));
+    scene = scenes.emplace(std::piecewise_construct, std::tuple(seed), std::tuple<const Mesh&>(statue)).first;
+  }
+  const auto key = std::tuple(seed, degrees, noise);
+  const auto found = views.find(key);
+  if (found != views.end()) return found->second;
+  const double angle = degrees * pi / 180;
+  const CGAL::Bbox_3 box(-0.85, -0.85, -1, 0.85, 0.85, 1);
+  auto camera = CR::Range_camera<Kernel>::framing(
+      box, Kernel::Vector_3(-std::cos(angle), -std::sin(angle), degrees % 90 == 0 ? -0.2 : 0.1), 330, true);
+  camera.noise = noise;
+  if (noise > 0) camera.drop_out = 0.02, camera.grazing_drop_out = 0.8;
+  camera.seed = std::uint64_t(1000 + degrees);
+  const auto simulated = scene->second.range_image(camera);
+  const Rigid_motion scene_from_scan = to_rigid_motion(simulated.scene_from_scan);
+  return views
+      .emplace(key,
+               View{simulated.image, scene_from_scan, Scan(simulated.image), scene_from_scan.inverse()(Vector::Zero())})
+      .first->second;
+}
+
+Rigid_motion true_motion(const View& source, const View& target)
+{
+  return target.scene_from_scan.inverse() * source.scene_from_scan;
+}
+
+double rotation_between(const Rigid_motion& a, const Rigid_motion& b)
+{
+  return Eigen::AngleAxisd(a.rotation * b.rotation.transpose()).angle() * 180 / pi;
+}
+
+void check_proper(const Result& result)
+{
+  for (const auto& t : {result.transformation(), result.crude_transformation(), result.inverse_transformation()}) {
+    const Matrix r = to_rigid_motion(t).rotation;
+    BOOST_TEST((r * r.transpose() - Matrix::Identity()).norm() < 1e-9);
+    BOOST_TEST(std::abs(r.determinant() - 1) < 1e-9);
+    BOOST_TEST(to_rigid_motion(t).translation.allFinite());
+  }
+  BOOST_TEST(result.confidence() >= 0);
+  BOOST_TEST(result.confidence() <= 1);
+  BOOST_TEST(result.covariance().allFinite());
+  BOOST_TEST(std::isfinite(result.overlap()));
+  BOOST_TEST(std::isfinite(result.residual()));
+  BOOST_TEST((result.status() == CR::REGISTERED) == result.reason().empty());
+}
+
+// Registered, to 1 degree and two sampling distances in the middle of the scan.
+void check_right(const Result& result, const Rigid_motion& truth, const Vector& centre, double spacing)
+{
+  check_proper(result);
+  BOOST_TEST(result.status() == CR::REGISTERED);
+  const Rigid_motion motion = to_rigid_motion(result.transformation());
+  BOOST_TEST(rotation_between(motion, truth) < 1);
+  BOOST_TEST((motion(centre) - truth(centre)).norm() < 2 * spacing);
+}
+
+void check_right(const Result& result, const View& source, const View& target)
+{
+  check_right(result, true_motion(source, target), source.centre,
+              (std::max)(source.scan.spacing(), target.scan.spacing()));
+}
+
+// The largest displacement of one motion against the other on a ball that holds a scan.
+double difference(const Rigid_motion& a, const Rigid_motion& b, const Vector& centre, double radius = 1)
+{
+  return (a(centre) - b(centre)).norm() + radius * (a.rotation - b.rotation).norm();
+}
+
+// Two answers that are the same but for rounding, which may take a few samples to another cell.
+void check_same(const Result& a, const Result& b, const Vector& centre, double tolerance)
+{
+  check_proper(a);
+  check_proper(b);
+  BOOST_TEST(a.status() == b.status());
+  BOOST_TEST(difference(to_rigid_motion(a.transformation()), to_rigid_motion(b.transformation()), centre) < tolerance);
+}
+
+// Whatever the answer, it has to say that it is not right.
+void check_not_registered(const Result& result)
+{
+  check_proper(result);
+  BOOST_TEST(result.status() != CR::REGISTERED);
+  if (result.status() == CR::NOT_REGISTERED) {
+    BOOST_TEST((to_rigid_motion(result.transformation()).rotation == Matrix::Identity()));
+    BOOST_TEST(to_rigid_motion(result.transformation()).translation.norm() == 0.);
+  }
+}
+
+Image moved(const Image& image, const Rigid_motion& motion, double unit = 1)
+{
+  std::vector<Point> points;
+  for (const Point& q : image.points()) {
+    const Vector m = motion(unit * CR::internal::to_vector(q));
+    points.push_back(Point(m.x(), m.y(), m.z()));
+  }
+  Image result(image.columns(), image.rows(), points, image.grid());
+  const Vector viewpoint = motion(unit * CR::internal::to_vector(image.sensor().viewpoint()));
+  result.set_sensor(CR::Sensor<Kernel>::perspective(Point(viewpoint.x(), viewpoint.y(), viewpoint.z())));
+  return result;
+}
+
+// With x -> -x.
+Image mirrored(const Image& image)
+{
+  Rigid_motion mirror; // not rigid, but that does not matter here
+  mirror.rotation(0, 0) = -1;
+  return moved(image, mirror);
+}
+
+Mesh mesh_of(const Image& image)
+{
+  Mesh mesh;
+  CR::triangulate_range_image(image, mesh);
+  return mesh;
+}
+
+Mesh mesh_of(const Flat_mesh& flat)
+{
+  Mesh mesh;
+  CR::internal::add_flat_mesh(flat, mesh, p::default_values());
+  return mesh;
+}
+
+Flat_mesh flat(const Mesh& mesh)
+{
+  return CR::internal::to_flat_mesh(mesh, p::default_values(), "", "");
+}
+
+const Point origin(0, 0, 0);
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(views_that_overlap_are_registered)
+{
+  for (unsigned seed : {0u, 1u})
+    for (const auto& [a, b] : {std::pair(0, 45), std::pair(45, 90), std::pair(0, 90), std::pair(270, 0)}) {
+      if (seed == 1 && a > 0) continue;
+      BOOST_TEST_CONTEXT("statue " << seed << ", " << a << " to " << b)
+      {
+        const View &source = view(seed, a), &target = view(seed, b);
+        const Result result = CR::register_scans(source.scan, target.scan);
+        check_right(result, source, target);
+        BOOST_TEST(result.confidence() >= 0.9);
+        BOOST_TEST(result.overlap() > 0.15);
+        BOOST_TEST(result.free_space_violations() < 0.02);
+        BOOST_TEST(result.free_motions().empty());
+        BOOST_TEST(result.residual() < 1);
+        // The crude motion is near, and the refined one nearer than a sampling distance or two.
+        BOOST_TEST(rotation_between(to_rigid_motion(result.crude_transformation()), true_motion(source, target)) < 5);
+        for (const auto& other : result.runners_up()) BOOST_TEST(other.score <= result.score());
+      }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(without_noise)
+{
+  const View &source = view(0, 0, 0), &target = view(0, 45, 0);
+  check_right(CR::register_scans(source.scan, target.scan), source, target);
+}
+
+BOOST_AUTO_TEST_CASE(views_that_do_not_overlap_are_not_registered)
+{
+  for (const auto& [a, b] : {std::pair(0, 180), std::pair(90, 270)}) BOOST_TEST_CONTEXT(a << " to " << b)
+    {
+      check_not_registered(CR::register_scans(view(0, a).scan, view(0, b).scan));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(views_of_two_statues_are_not_registered)
+{
+  check_not_registered(CR::register_scans(view(0, 0).scan, view(1, 0).scan));
+  check_not_registered(CR::register_scans(view(0, 90).scan, view(1, 45).scan));
+}
+
+BOOST_AUTO_TEST_CASE(mirrored_scans_are_not_registered)
+{
+  const Scan mirror_image(mirrored(view(0, 0).image));
+  check_not_registered(CR::register_scans(mirror_image, view(0, 0).scan));
+  check_not_registered(CR::register_scans(mirror_image, view(0, 45).scan));
+}
+
+BOOST_AUTO_TEST_CASE(swapped_scans_give_the_inverse)
+{
+  for (const auto& [a, b] : {std::pair(0, 45), std::pair(0, 90), std::pair(270, 0)}) {
+    const Result there = CR::register_scans(view(0, a).scan, view(0, b).scan),
+                 back = CR::register_scans(view(0, b).scan, view(0, a).scan);
+    BOOST_TEST(there.status() == back.status());
+    const Rigid_motion motion = to_rigid_motion(there.transformation()),
+                       inverse = to_rigid_motion(back.inverse_transformation());
+    BOOST_TEST((motion.rotation - inverse.rotation).norm() < 1e-14);
+    BOOST_TEST((motion.translation - inverse.translation).norm() < 1e-13);
+    BOOST_TEST(there.confidence() == back.confidence());
+    BOOST_TEST(there.score() == back.score());
+    BOOST_TEST(there.runners_up().size() == back.runners_up().size());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_same_bits_twice)
+{
+  for (int b : {45, 180}) {
+    const Result first = CR::register_scans(view(0, 0).scan, view(0, b).scan),
+                 second = CR::register_scans(Scan(view(0, 0).image), Scan(view(0, b).image));
+    BOOST_TEST(first.status() == second.status());
+    BOOST_TEST(first.reason() == second.reason());
+    for (const auto transformation : {&Result::transformation, &Result::crude_transformation}) {
+      const Rigid_motion m = to_rigid_motion((first.*transformation)()),
+                         n = to_rigid_motion((second.*transformation)());
+      BOOST_TEST((m.rotation == n.rotation));
+      BOOST_TEST((m.translation == n.translation));
+    }
+    BOOST_TEST(first.confidence() == second.confidence());
+    BOOST_TEST(first.score() == second.score());
+    BOOST_TEST(first.overlap() == second.overlap());
+    BOOST_TEST(first.residual() == second.residual());
+    BOOST_TEST((first.covariance() == second.covariance()));
+    BOOST_TEST_REQUIRE(first.runners_up().size() == second.runners_up().size());
+    for (std::size_t i = 0; i < first.runners_up().size(); ++i)
+      BOOST_TEST(first.runners_up()[i].score == second.runners_up()[i].score);
+    BOOST_TEST_REQUIRE(first.statistics().size() == second.statistics().size());
+    for (std::size_t i = 0; i < first.statistics().size(); ++i) {
+      BOOST_TEST(first.statistics()[i].name == second.statistics()[i].name);
+      BOOST_TEST(first.statistics()[i].count == second.statistics()[i].count);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(frames_do_not_matter)
+{
+  const View &source = view(0, 0), &target = view(0, 90);
+  const Result reference = CR::register_scans(source.scan, target.scan);
+  Random random(1);
+  for (double away : {3., 1e4}) {
+    const Rigid_motion a = random.motion(away), b = random.motion(away);
+    const Result result = CR::register_scans(Scan(moved(source.image, a)), Scan(moved(target.image, b)));
+    check_proper(result);
+    BOOST_TEST(result.status() == reference.status());
+    const Rigid_motion back = b.inverse() * to_rigid_motion(result.transformation()) * a;
+    BOOST_TEST(difference(back, to_rigid_motion(reference.transformation()), source.centre) <
+               0.1 * source.scan.spacing());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_unit_does_not_matter)
+{
+  const View &source = view(0, 0), &target = view(0, 90);
+  const Result reference = CR::register_scans(source.scan, target.scan);
+  for (double unit : {1e-3, 0.3048, 1e3}) {
+    const Rigid_motion same;
+    const Result result =
+        CR::register_scans(Scan(moved(source.image, same, unit)), Scan(moved(target.image, same, unit)));
+    check_proper(result);
+    BOOST_TEST(result.status() == reference.status());
+    Rigid_motion back = to_rigid_motion(result.transformation());
+    back.translation /= unit;
+    BOOST_TEST(difference(back, to_rigid_motion(reference.transformation()), source.centre) <
+               0.1 * source.scan.spacing());
+    BOOST_TEST(std::abs(result.overlap() - reference.overlap()) < 0.01);
+    BOOST_TEST(std::abs(result.residual() - reference.residual()) < 0.02);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_order_of_vertices_and_faces_does_not_matter)
+{
+  const View &source = view(0, 0), &target = view(0, 90);
+  const Mesh a = mesh_of(source.image), b = mesh_of(target.image);
+  const Result reference = CR::register_meshes(a, b, p::viewpoint(origin), p::viewpoint(origin)),
+               result = CR::register_meshes(mesh_of(generated::shuffled(flat(a), 1)),
+                                            mesh_of(generated::shuffled(flat(b), 2)), p::viewpoint(origin),
+                                            p::viewpoint(origin));
+  check_right(reference, source, target);
+  check_same(result, reference, source.centre, 0.3 * source.scan.spacing());
+}
+
+BOOST_AUTO_TEST_CASE(a_scan_against_itself_is_the_identity)
+{
+  Mesh statue;
+  CR::make_statue(statue, 48);
+  const View& open = view(0, 0);
+  const Result closed_result = CR::register_meshes(statue, statue),
+               open_result = CR::register_scans(open.scan, open.scan);
+  for (const auto& [result, spacing] :
+       {std::pair(&closed_result, Scan(statue).spacing()), std::pair(&open_result, open.scan.spacing())}) {
+    check_proper(*result);
+    BOOST_TEST(result->status() == CR::REGISTERED);
+    BOOST_TEST(rotation_between(to_rigid_motion(result->transformation()), Rigid_motion()) < 0.01);
+    BOOST_TEST(to_rigid_motion(result->transformation()).translation.norm() < 0.05 * spacing);
+    BOOST_TEST(result->overlap() > 0.9);
+  }
+}
+
+// A scan against the complete body it was taken of.
+BOOST_AUTO_TEST_CASE(a_scan_against_the_closed_model)
+{
+  Mesh statue;
+  CR::make_statue(statue, 64);
+  const View& source = view(0, 45);
+  const Scan model(statue);
+  BOOST_TEST(!model.has_free_space());
+  const Result result = CR::register_scans(source.scan, model);
+  check_right(result, source.scene_from_scan, source.centre, (std::max)(source.scan.spacing(), model.spacing()));
+}
+
+BOOST_AUTO_TEST_CASE(range_image_mesh_and_points_of_one_scan)
+{
+  const View &source = view(0, 0), &target = view(0, 45);
+  // With and without the sensor.
+  const Mesh a = mesh_of(source.image), b = mesh_of(target.image);
+  check_right(CR::register_meshes(a, b, p::viewpoint(origin), p::viewpoint(origin)), source, target);
+  check_right(CR::register_meshes(a, b), source, target);
+  check_right(CR::register_meshes(a, b, p::viewing_direction(Kernel::Vector_3(0, 0, -1)), p::viewpoint(origin)), source,
+              target);
+  const Scan points(source.image.points(), p::viewpoint(origin));
+  BOOST_TEST(points.has_free_space());
+  check_right(CR::register_scans(points, target.scan), source, target);
+  // What was prepared is what is told.
+  BOOST_TEST(source.scan.number_of_samples() <= source.image.points().size());
+  BOOST_TEST(source.scan.number_of_samples() > source.image.points().size() / 2);
+  BOOST_TEST(source.scan.has_free_space());
+  BOOST_TEST(source.scan.extent() > 0.5);
+  BOOST_TEST(source.scan.extent() < 3);
+}
+
+BOOST_AUTO_TEST_CASE(any_face_graph_and_kernel)
+{
+  const View &source = view(0, 0), &target = view(0, 45);
+  const Mesh a = mesh_of(source.image), b = mesh_of(target.image);
+  const Result reference = CR::register_meshes(a, b);
+  check_right(reference, source, target);
+  const double tolerance = 0.3 * source.scan.spacing();
+
+  CGAL::Polyhedron_3<Kernel> polyhedron;
+  CGAL::copy_face_graph(a, polyhedron);
+  check_same(CR::register_meshes(polyhedron, b), reference, source.centre, tolerance);
+
+  using Double = CGAL::Simple_cartesian<double>;
+  CGAL::Surface_mesh<Double::Point_3> other;
+  CGAL::copy_face_graph(b, other,
+                        p::default_values(), // from Epick to doubles
+                        p::vertex_point_map(other.points()));
+  check_same(CR::register_meshes(a, other), reference, source.centre, tolerance);
+  const CR::Registration_result<Double> doubles = CR::register_meshes(other, a);
+  BOOST_TEST(doubles.status() == CR::REGISTERED);
+
+#ifdef CGAL_USE_OPENMESH
+  OpenMesh::PolyMesh_ArrayKernelT<> open_mesh; // of floats
+  CGAL::copy_face_graph(a, open_mesh);
+  check_same(CR::register_meshes(open_mesh, b), reference, source.centre, tolerance);
+#else
+  std::cout << "OpenMesh: not tested, it was not found\n";
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(named_parameters_in_any_order)
+{
+  const View &source = view(0, 0), &target = view(0, 45);
+  Mesh a = mesh_of(source.image);
+  const Mesh b = mesh_of(target.image);
+  const Result reference =
+      CR::register_meshes(a, b, p::viewpoint(origin).minimum_extent(0.05).maximum_extent(0.3), p::viewpoint(origin));
+  check_right(reference, source, target);
+
+  // The points of the source in a map of their own.
+  auto map = a.add_property_map<Mesh::Vertex_index, Point>("v:elsewhere").first;
+  for (auto v : a.vertices()) {
+    map[v] = a.point(v);
+    a.point(v) = origin;
+  }
+  const auto check = [&](const auto& np) {
+    check_same(CR::register_meshes(a, b, np, p::viewpoint(origin)), reference, source.centre, 1e-12);
+  };
+  check(p::vertex_point_map(map).viewpoint(origin).minimum_extent(0.05).maximum_extent(0.3));
+  check(p::maximum_extent(0.3).minimum_extent(0.05).viewpoint(origin).vertex_point_map(map));
+  check(p::minimum_extent(0.05).vertex_point_map(map).maximum_extent(0.3).geom_traits(Kernel()).viewpoint(origin));
+
+  // A pack of CGAL's own.
+  check_right(CR::register_meshes(a, b, CGAL::parameters::vertex_point_map(map)), source, target);
+}
+
+BOOST_AUTO_TEST_CASE(extents_of_the_axes)
+{
+  namespace p = CR::parameters;
+  const View &source = view(0, 0), &target = view(0, 45);
+  for (const auto& [f1, f2] : {std::pair(0., 0.3), std::pair(0.1, 0.2), std::pair(0.2, 1.)})
+    check_right(CR::register_scans(source.scan, target.scan, p::minimum_extent(f1).maximum_extent(f2)), source, target);
+  // Nothing is as small, or as large.
+  check_not_registered(CR::register_scans(source.scan, target.scan, p::maximum_extent(1e-6)));
+  check_not_registered(CR::register_scans(source.scan, target.scan, p::minimum_extent(5.).maximum_extent(6.)));
+}
+
+namespace {
+
+// That an exception names the function and the argument.
+auto names(const std::string& function, const std::string& argument)
+{
+  return [=](const std::invalid_argument& e) {
+    const std::string what = e.what();
+    const bool is_named = what.rfind(function, 0) == 0 && what.find(argument) != std::string::npos;
+    if (!is_named) BOOST_TEST_MESSAGE("said: " << what);
+    return is_named;
+  };
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(wrong_use_names_the_argument)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const Mesh good = mesh_of(generated::bumps(40)), empty;
+  Mesh not_a_number = good, infinite = good, quadrangle = good, vertices, flat_mesh;
+  not_a_number.point(Mesh::Vertex_index(77)) = Point(0, nan, 0);
+  infinite.point(Mesh::Vertex_index(77)) = Point(0, 0, -infinity);
+  quadrangle.add_face(quadrangle.add_vertex(Point(0, 0, 2)), quadrangle.add_vertex(Point(1, 0, 2)),
+                      quadrangle.add_vertex(Point(1, 1, 2)), quadrangle.add_vertex(Point(0, 1, 2)));
+  for (int i = 0; i < 5; ++i) vertices.add_vertex(Point(i, i * i, 0));
+  flat_mesh.add_face(flat_mesh.add_vertex(Point(0, 0, 0)), flat_mesh.add_vertex(Point(1, 0, 0)),
+                     flat_mesh.add_vertex(Point(2, 0, 0)));
+  for (const Mesh* bad : {&empty, static_cast<const Mesh*>(&not_a_number), static_cast<const Mesh*>(&infinite),
+                          static_cast<const Mesh*>(&quadrangle), static_cast<const Mesh*>(&vertices),
+                          static_cast<const Mesh*>(&flat_mesh)}) {
+    BOOST_CHECK_EXCEPTION(CR::register_meshes(*bad, good), std::invalid_argument, names("register_meshes", "source"));
+    BOOST_CHECK_EXCEPTION(CR::register_meshes(good, *bad), std::invalid_argument, names("register_meshes", "target"));
+    BOOST_CHECK_EXCEPTION(Scan{*bad}, std::invalid_argument, names("Scan", "mesh"));
+  }
+
+  const Point above(0.5, 0.5, 5);
+  const Kernel::Vector_3 down(0, 0, -1);
+  BOOST_CHECK_EXCEPTION(CR::register_meshes(good, good, p::viewpoint(above).viewing_direction(down)),
+                        std::invalid_argument, names("register_meshes", "viewing_direction"));
+  BOOST_CHECK_EXCEPTION(
+      CR::register_meshes(good, good, p::default_values(), p::viewing_direction(down).viewpoint(above)),
+      std::invalid_argument, names("register_meshes", "viewpoint"));
+  BOOST_CHECK_EXCEPTION(Scan(good, p::viewing_direction(Kernel::Vector_3(0, 0, 0))), std::invalid_argument,
+                        names("", "viewing_direction"));
+  BOOST_CHECK_EXCEPTION(Scan(good, p::viewpoint(Point(0, nan, 0))), std::invalid_argument, names("", "viewpoint"));
+
+  const Scan scan(good);
+  const auto rejects = [&](const auto& np, const std::string& argument) {
+    BOOST_CHECK_EXCEPTION(CR::register_scans(scan, scan, np), std::invalid_argument, names("register_scans", argument));
+    BOOST_CHECK_THROW(CR::register_meshes(good, good, np), std::invalid_argument);
+  };
+  rejects(p::minimum_extent(0.3).maximum_extent(0.3), "minimum_extent");
+  rejects(p::minimum_extent(0.4).maximum_extent(0.3), "minimum_extent");
+  rejects(p::minimum_extent(1.5), "minimum_extent");
+  rejects(p::maximum_extent(0.), "maximum_extent");
+  rejects(p::minimum_extent(-0.1), "minimum_extent");
+  rejects(p::minimum_extent(nan), "minimum_extent");
+  rejects(p::maximum_extent(-0.1), "maximum_extent");
+  rejects(p::maximum_extent(infinity), "maximum_extent");
+
+  BOOST_CHECK_EXCEPTION(Scan{Image()}, std::invalid_argument, names("Scan", "image"));
+  BOOST_CHECK_EXCEPTION(Scan{Image(10, 10)}, std::invalid_argument, names("Scan", "image"));
+  BOOST_CHECK_EXCEPTION(Scan{std::vector<Point>()}, std::invalid_argument, names("Scan", "points"));
+  BOOST_CHECK_EXCEPTION(Scan(std::vector<Point>{origin, Point(1, nan, 0), Point(0, 1, 0)}), std::invalid_argument,
+                        names("Scan", "points"));
+}
+
+// A status with its reason, or an exception; never a motion.
+BOOST_AUTO_TEST_CASE(too_few_vertices)
+{
+  const View& other = view(0, 0);
+  const Point far_above(0.3, 0.3, 5);
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> v;
+  for (const Point& q : {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)}) v.push_back(mesh.add_vertex(q));
+  mesh.add_face(v[0], v[1], v[2]);
+  check_not_registered(CR::register_meshes(mesh, mesh));
+  const Result seen = CR::register_meshes(mesh, mesh, p::viewpoint(far_above), p::viewpoint(far_above));
+  check_not_registered(seen);
+  BOOST_TEST(seen.status() == CR::NOT_REGISTERED);
+  BOOST_TEST(seen.reason().find("too few vertices") != std::string::npos);
+  const Scan triangle(mesh, p::viewpoint(far_above));
+  for (const Result& result : {CR::register_scans(triangle, other.scan), CR::register_scans(other.scan, triangle)}) {
+    check_not_registered(result);
+    BOOST_TEST(result.status() == CR::NOT_REGISTERED);
+  }
+  // A tetrahedron looks the same from four sides, whether its faces or its vertices are the samples.
+  mesh.clear();
+  CGAL::make_tetrahedron(Point(0, 0, 0), Point(1, 1, 0), Point(0, 1, 1), Point(1, 0, 1), mesh);
+  check_not_registered(CR::register_meshes(mesh, mesh));
+}
