@@ -5,75 +5,48 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The unit in which this project gives times: R, the time of CGAL's plain edge collapse of a scan's dense mesh.
-// Machines differ and change their speed from hour to hour; R, measured in the same run, makes times comparable.
+// Prints the unit of times, R: see reference_time.h.
 
 // g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
-#include <CGAL/Crude_registration/IO/read_scan.h>
-#include <CGAL/Crude_registration/simplify_scan.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
-
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
+#include "reference_time.h"
 
 #include <boost/program_options.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
-#include <ctime>
 #include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
 
-namespace CR = CGAL::Crude_registration;
 namespace po = boost::program_options;
-
-using Kernel = CGAL::Simple_cartesian<double>;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 namespace {
 
 struct Options
 {
   std::string scan;
-  std::size_t vertices = 404;
+  std::size_t vertices = benchmark_tools::Reference_time::default_vertices;
   std::size_t runs = 5;
   bool verbose = false;
 };
 
-// The time that this process has computed for: others on the machine do not count.
-double cpu_seconds()
-{
-  return double(std::clock()) / CLOCKS_PER_SEC;
-}
-
 int run(const Options& options)
 {
-  CR::Scan_file<Kernel> scan = CR::read_scan<Kernel>(options.scan);
-  Mesh dense;
-  if (scan.kind == CR::Scan_file<Kernel>::RANGE_IMAGE) CR::triangulate_range_image(scan.image, dense);
-  if (scan.kind == CR::Scan_file<Kernel>::MESH) dense = std::move(scan.mesh);
-  if (scan.kind == CR::Scan_file<Kernel>::POINTS)
-    throw std::runtime_error(options.scan + ": points without a grid or faces have no mesh to simplify");
-
+  const benchmark_tools::Reference_time reference(options.scan, options.vertices);
   std::vector<double> seconds;
   for (std::size_t i = 0; i < options.runs; ++i) {
-    Mesh mesh = dense;
-    const double start = cpu_seconds();
-    const std::size_t left = CR::simplify_scan(mesh, CR::parameters::number_of_vertices(options.vertices));
-    seconds.push_back(cpu_seconds() - start);
+    const auto run = reference.run();
+    seconds.push_back(run.seconds);
     if (options.verbose)
-      std::cerr << "run " << i + 1 << ": " << dense.number_of_vertices() << " to " << left << " vertices in "
-                << seconds.back() << " s\n";
+      std::cerr << "run " << i + 1 << ": " << reference.dense_mesh().number_of_vertices() << " to " << run.vertices_left
+                << " vertices in " << run.seconds << " s\n";
   }
-  std::nth_element(seconds.begin(), seconds.begin() + std::ptrdiff_t(seconds.size() / 2), seconds.end());
-  std::cout << seconds[seconds.size() / 2] << '\n';
+  std::cout << benchmark_tools::median(seconds) << '\n';
   return EXIT_SUCCESS;
 }
 

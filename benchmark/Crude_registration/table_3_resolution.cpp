@@ -13,6 +13,7 @@
 #endif
 
 #include "bunny_pairs.h"
+#include "plot_script.h"
 
 #include <CGAL/Crude_registration/internal/atomic_file.h>
 
@@ -30,6 +31,7 @@
 
 namespace CR = CGAL::Crude_registration;
 namespace po = boost::program_options;
+using benchmark_tools::quoted;
 
 namespace {
 
@@ -82,14 +84,6 @@ void write_csv(const std::string& file, const std::vector<bunny::Registration>& 
           << paper[i].d_vertices << ',' << paper[i].seconds << '\n';
     }
   });
-}
-
-// A text in the single quotes of gnuplot, in which a quote is written twice.
-std::string quoted(const std::string& text)
-{
-  std::string result = "'";
-  for (char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
 }
 
 // Figure 12 with both curves, on a logarithmic axis as they are four orders of magnitude apart.

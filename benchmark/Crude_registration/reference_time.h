@@ -1,0 +1,92 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_BENCHMARK_REFERENCE_TIME_H
+#define CGAL_CRUDE_REGISTRATION_BENCHMARK_REFERENCE_TIME_H
+
+// The unit in which this project gives times: R, the time of CGAL's plain edge collapse of a scan's dense mesh.
+// Machines differ and change their speed from hour to hour; R, measured in the same run, makes times comparable.
+
+#include <CGAL/Crude_registration/IO/read_scan.h>
+#include <CGAL/Crude_registration/simplify_scan.h>
+#include <CGAL/Crude_registration/triangulate_range_image.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <ctime>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace benchmark_tools {
+
+// The time that this process has computed for: others on the machine do not count.
+inline double cpu_seconds()
+{
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+// The upper one of two middle values. \pre There is a value.
+inline double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Reference_time
+{
+public:
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+  static constexpr std::size_t default_vertices = 404;
+
+  explicit Reference_time(Mesh dense, std::size_t vertices = default_vertices)
+      : m_dense(std::move(dense)), m_vertices(vertices)
+  {}
+
+  // the dense mesh of the scan in a file
+  explicit Reference_time(const std::string& file, std::size_t vertices = default_vertices) : m_vertices(vertices)
+  {
+    namespace CR = CGAL::Crude_registration;
+    CR::Scan_file<Kernel> scan = CR::read_scan<Kernel>(file);
+    if (scan.kind == CR::Scan_file<Kernel>::RANGE_IMAGE) CR::triangulate_range_image(scan.image, m_dense);
+    if (scan.kind == CR::Scan_file<Kernel>::MESH) m_dense = std::move(scan.mesh);
+    if (scan.kind == CR::Scan_file<Kernel>::POINTS)
+      throw std::runtime_error(file + ": points without a grid or faces have no mesh to simplify");
+  }
+
+  const Mesh& dense_mesh() const { return m_dense; }
+
+  struct Run
+  {
+    std::size_t vertices_left;
+    double seconds; // of CPU
+  };
+
+  Run run() const
+  {
+    Mesh mesh = m_dense;
+    const double start = cpu_seconds();
+    const std::size_t left = CGAL::Crude_registration::simplify_scan(
+        mesh, CGAL::Crude_registration::parameters::number_of_vertices(m_vertices));
+    return {left, cpu_seconds() - start};
+  }
+
+private:
+  Mesh m_dense;
+  std::size_t m_vertices;
+};
+
+} // namespace benchmark_tools
+
+#endif // CGAL_CRUDE_REGISTRATION_BENCHMARK_REFERENCE_TIME_H
