@@ -392,7 +392,8 @@ Matching_vertices given_matching_vertices(const FaceGraph& graph, const Flat_mes
     const auto map = parameter(np, internal_np::vertex_normal_map, 0);
     for (auto v : vertices(graph)) {
       const auto& m = get(map, v);
-      result.normals.push_back(unit_or_zero(Vector(to_double(m.x()), to_double(m.y()), to_double(m.z()))));
+      const Vector normal(to_double(m.x()), to_double(m.y()), to_double(m.z()));
+      result.normals.push_back(normal.allFinite() ? unit_or_zero(normal) : normal);
     }
   } else result.normals = vertex_normals(mesh);
   if constexpr (is_given<NamedParameters, internal_np::curvature_map_t>) {
