@@ -11,12 +11,8 @@
 // answer, so that no start and no axis helps. Each scan is prepared once. `seconds` is what a pair costs from samples
 // in memory: both preparations and the search; `prepare_seconds` and `pair_seconds` are its parts.
 
-// g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
+#include "moved_scan.h"
 
-#include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/approximation_error.h>
 #include <CGAL/Crude_registration/internal/Trihedron_search.h>
 #include <CGAL/Crude_registration/internal/atomic_file.h>
@@ -24,8 +20,6 @@
 #include <CGAL/Crude_registration/simplify_scan.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/transform.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <Eigen/Geometry>
@@ -37,27 +31,20 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 namespace CR = CGAL::Crude_registration;
 namespace po = boost::program_options;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Motion = CGAL::Aff_transformation_3<Kernel>;
+using benchmark_tools::Kernel;
+using benchmark_tools::Pair;
 
 namespace {
-
-struct Pair
-{
-  std::string source, target;
-};
 
 struct Method
 {
@@ -85,59 +72,6 @@ double seconds_since(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<Pair> read_pairs(const std::string& path)
-{
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot open " + path);
-  std::string line;
-  std::getline(file, line);
-  if (line.rfind("source,target", 0) != 0)
-    throw std::runtime_error(path + ":1: the first line has to name the columns, source and target first");
-  std::vector<Pair> pairs;
-  for (std::size_t number = 2; std::getline(file, line); ++number) {
-    if (line.empty()) continue;
-    std::stringstream fields(line);
-    Pair pair;
-    std::getline(fields, pair.source, ',');
-    std::getline(fields, pair.target, ',');
-    if (pair.source.empty() || pair.target.empty())
-      throw std::runtime_error(path + ":" + std::to_string(number) + ": no source and target");
-    pairs.push_back(pair);
-  }
-  return pairs;
-}
-
-std::optional<Kernel::Point_3> read_point(const std::string& text)
-{
-  if (text.empty()) return std::nullopt;
-  std::istringstream in(text);
-  double x, y, z;
-  char comma_1, comma_2;
-  if (!(in >> x >> comma_1 >> y >> comma_2 >> z) || comma_1 != ',' || comma_2 != ',' || !(in >> std::ws).eof())
-    throw std::runtime_error("--viewpoint has to be x,y,z, not " + text);
-  return Kernel::Point_3(x, y, z);
-}
-
-// A rigid motion that depends on the name alone: a turn drawn evenly from all, a shift of up to the scan's size.
-CR::internal::Rigid_motion motion_of_name(const std::string& name, double size)
-{
-  std::uint64_t state = 14695981039346656037u;
-  for (char c : name) state = CR::internal::mixed(state ^ static_cast<unsigned char>(c));
-  const auto next = [&state] {
-    state = CR::internal::mixed(state);
-    return 2 * (double(state >> 11) / 9007199254740992.) - 1;
-  };
-  Eigen::Quaterniond q;
-  do {
-    const double w = next(), x = next(), y = next(), z = next();
-    q = Eigen::Quaterniond(w, x, y, z);
-  } while (q.norm() > 1 || q.norm() < 0.1);
-  CR::internal::Rigid_motion motion;
-  motion.rotation = q.normalized().toRotationMatrix();
-  for (int i = 0; i < 3; ++i) motion.translation[i] = size * next();
-  return motion;
-}
-
 // The S- or D-mesh of the paper.
 template <class NamedParameters>
 CR::internal::Simplified_scan simplify(const CR::Scan_file<Kernel>& file, const CR::Scan<Kernel>& scan,
@@ -159,20 +93,12 @@ CR::internal::Simplified_scan simplify(const CR::Scan_file<Kernel>& file, const 
   return simplified;
 }
 
-Moved_scan read_and_move(const std::string& path, const std::string& name, const Method& method)
+Moved_scan read_and_prepare(const std::string& path, const std::string& name, const Method& method)
 {
-  CR::Scan_file<Kernel> file = CR::read_scan<Kernel>(path);
-  CGAL::Bbox_3 box;
-  for (const auto& p : file.image.points()) box += p.bbox();
-  for (const auto& p : file.points) box += p.bbox();
-  for (const auto& p : file.mesh.points()) box += p.bbox();
+  const benchmark_tools::Moved_file read = benchmark_tools::read_and_move(path, name);
+  const CR::Scan_file<Kernel>& file = read.file;
   Moved_scan moved;
-  moved.moved_from_file =
-      motion_of_name(name, (std::max)({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()}));
-  const Motion motion = CR::internal::to_aff_transformation<Kernel>(moved.moved_from_file);
-  CR::transform(file.image, motion);
-  for (auto& p : file.points) p = p.transform(motion);
-  CGAL::Polygon_mesh_processing::transform(motion, file.mesh);
+  moved.moved_from_file = read.moved_from_file;
 
   const auto start = std::chrono::steady_clock::now();
   const auto prepare = [&](const auto& np) {
@@ -180,7 +106,7 @@ Moved_scan read_and_move(const std::string& path, const std::string& name, const
     if (method.is_paper) moved.simplified = simplify(file, *moved.scan, np);
   };
   if (method.viewpoint && file.kind != CR::Scan_file<Kernel>::RANGE_IMAGE)
-    prepare(CR::parameters::viewpoint(method.viewpoint->transform(motion)));
+    prepare(CR::parameters::viewpoint(read.moved(*method.viewpoint)));
   else prepare(CR::parameters::default_values());
   moved.seconds = seconds_since(start);
   return moved;
@@ -293,20 +219,21 @@ int main(int argc, char** argv)
     }
     po::notify(values);
     threads = (std::max)(threads, 1u);
-    method.viewpoint = read_point(viewpoint_text);
+    method.viewpoint = benchmark_tools::read_point(viewpoint_text);
     if (method_name != "default" && method_name != "paper")
       throw std::runtime_error("--method has to be default or paper, not " + method_name);
     method.is_paper = method_name == "paper";
 
-    const std::vector<Pair> pairs = read_pairs(pairs_file);
+    const std::vector<Pair> pairs = benchmark_tools::read_pairs(pairs_file);
     std::map<std::string, std::size_t> index;
     std::vector<std::string> names;
     for (const Pair& p : pairs)
       for (const std::string& name : {p.source, p.target})
         if (index.emplace(name, names.size()).second) names.push_back(name);
     std::vector<Moved_scan> scans(names.size());
-    for_each_index(names.size(), threads,
-                   [&](std::size_t i) { scans[i] = read_and_move(scans_folder + "/" + names[i], names[i], method); });
+    for_each_index(names.size(), threads, [&](std::size_t i) {
+      scans[i] = read_and_prepare(scans_folder + "/" + names[i], names[i], method);
+    });
     std::vector<Answer> answers(pairs.size());
     const auto start = std::chrono::steady_clock::now();
     for_each_index(pairs.size(), threads, [&](std::size_t k) {

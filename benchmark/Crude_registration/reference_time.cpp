@@ -7,11 +7,6 @@
 
 // Prints the unit of times, R: see reference_time.h.
 
-// g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-
 #include "reference_time.h"
 
 #include <boost/program_options.hpp>

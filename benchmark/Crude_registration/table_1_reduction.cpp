@@ -7,11 +7,6 @@
 
 // Table 1 of the paper: what simplification to the approximation error leaves of the scans.
 
-// g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/approximation_error.h>
 #include <CGAL/Crude_registration/internal/Quadric_simplification.h>

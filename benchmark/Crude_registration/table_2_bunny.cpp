@@ -7,11 +7,6 @@
 
 // Table 2 of the paper: the four neighbouring pairs of bunny scans, crude and refined, beside the published poses.
 
-// g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-
 #include "bunny_pairs.h"
 
 #include <CGAL/Crude_registration/internal/atomic_file.h>

@@ -7,11 +7,6 @@
 
 // Table 3 and Figure 12 of the paper: the resolution of the two meshes against the time of the search, bunny 0-90.
 
-// g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-
 #include "bunny_pairs.h"
 #include "plot_script.h"
 

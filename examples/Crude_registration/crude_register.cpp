@@ -7,11 +7,6 @@
 
 // The command line: registers scans, says what is in one, and simulates some.
 
-// g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/IO/write_range_image.h>
 #include <CGAL/Crude_registration/Scan.h>
