@@ -13,6 +13,8 @@
 // (per scan: diagonal, centroid and covariance). An answer is right if its rotation is within 5 degrees and the root
 // mean square displacement of the source's points within 5 % of the source's diagonal.
 
+#include "csv_table.h"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -20,63 +22,25 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+using benchmark_tools::motion;
+using benchmark_tools::Motion;
+using benchmark_tools::number;
+using benchmark_tools::read_table;
+using benchmark_tools::Row;
+
 namespace {
-
-using Row = std::map<std::string, std::string>;
-using Motion = Eigen::Matrix<double, 3, 4>;
-
-std::vector<Row> read_table(const std::string& path)
-{
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": the file cannot be read");
-  const auto fields = [](const std::string& line) {
-    std::vector<std::string> result;
-    std::stringstream in(line.substr(0, line.find('\r')));
-    for (std::string field; std::getline(in, field, ',');) result.push_back(field);
-    return result;
-  };
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> names = fields(line);
-  std::vector<Row> rows;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> values = fields(line);
-    Row row;
-    for (std::size_t i = 0; i < names.size() && i < values.size(); ++i) row[names[i]] = values[i];
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-double number(const Row& row, const std::string& name)
-{
-  const auto field = row.find(name);
-  if (field == row.end() || field->second.empty()) throw std::runtime_error("a row has no " + name);
-  return std::stod(field->second);
-}
 
 bool has_motion(const Row& row)
 {
   const auto field = row.find("m00");
   return field != row.end() && !field->second.empty();
-}
-
-Motion motion(const Row& row)
-{
-  Motion m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 4; ++j) m(i, j) = number(row, "m" + std::to_string(i) + std::to_string(j));
-  return m;
 }
 
 bool is_right(const Motion& found, const Motion& wanted, const Row& scan)
