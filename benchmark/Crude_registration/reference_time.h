@@ -11,6 +11,8 @@
 // The unit in which this project gives times: R, the time of CGAL's plain edge collapse of a scan's dense mesh.
 // Machines differ and change their speed from hour to hour; R, measured in the same run, makes times comparable.
 
+#include "cpu_time.h"
+
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/simplify_scan.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
@@ -18,29 +20,12 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <ctime>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace benchmark_tools {
-
-// The time that this process has computed for: others on the machine do not count.
-inline double cpu_seconds()
-{
-  return double(std::clock()) / CLOCKS_PER_SEC;
-}
-
-// The upper one of two middle values. \pre There is a value.
-inline double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Reference_time
 {

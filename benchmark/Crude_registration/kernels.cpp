@@ -1,0 +1,245 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The stages of the default method, each on its own, on simulated scans of some sizes. Options are those of
+// google-benchmark: --benchmark_filter=search, for example.
+
+#include "generated_scan.h"
+
+#include <CGAL/Crude_registration/Scan.h>
+#include <CGAL/Crude_registration/approximation_error.h>
+#include <CGAL/Crude_registration/internal/Pose_search.h>
+#include <CGAL/Crude_registration/internal/Quadric_simplification.h>
+#include <CGAL/Crude_registration/internal/Surfel_pair_index.h>
+#include <CGAL/Crude_registration/principal_curvatures.h>
+#include <CGAL/Crude_registration/refine_motion.h>
+#include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/simplify_scan.h>
+#include <CGAL/Crude_registration/triangulate_range_image.h>
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace CR = CGAL::Crude_registration;
+using benchmark_tools::Generated_scene;
+using Kernel = Generated_scene::Kernel;
+using Mesh = Generated_scene::Mesh;
+using CR::internal::Flat_mesh;
+
+namespace {
+
+// Two views of the body that overlap, and what the stages start from.
+struct Input
+{
+  Generated_scene::Simulated_scan source, target;
+  Mesh source_mesh, target_mesh;
+  Flat_mesh flat;
+  double sampling_distance;
+  CR::Scan<Kernel> source_scan, target_scan;
+  CR::internal::Rigid_motion truth;
+
+  Input(const Generated_scene& scene, std::size_t samples)
+      : source(scene.scan(samples, 0, 1)), target(scene.scan(samples, 0.6, 2)),
+        sampling_distance(CR::sampling_distance(source.image)), source_scan(source.image), target_scan(target.image)
+  {
+    CR::triangulate_range_image(source.image, source_mesh);
+    CR::triangulate_range_image(target.image, target_mesh);
+    flat = CR::internal::to_flat_mesh(source_mesh, CR::parameters::default_values(), "kernels", "mesh");
+    truth = CR::internal::to_rigid_motion(target.scene_from_scan.inverse() * source.scene_from_scan);
+  }
+
+  // target from source, in the frames of the prepared scans
+  CR::internal::Pose true_pose() const
+  {
+    return CR::internal::to_pose(target_scan.prepared().own_from_input * truth *
+                                 source_scan.prepared().own_from_input.inverse());
+  }
+};
+
+const Input& input(const benchmark::State& state)
+{
+  static const Generated_scene scene(160);
+  static std::map<std::int64_t, std::unique_ptr<Input>> inputs;
+  std::unique_ptr<Input>& result = inputs[state.range(0)];
+  if (!result) result = std::make_unique<Input>(scene, std::size_t(state.range(0)));
+  return *result;
+}
+
+void count_vertices(benchmark::State& state, const Mesh& mesh)
+{
+  state.SetItemsProcessed(state.iterations() * std::int64_t(mesh.number_of_vertices()));
+}
+
+void curvatures(benchmark::State& state)
+{
+  Mesh mesh = input(state).source_mesh;
+  const auto map = mesh.add_property_map<Mesh::Vertex_index, CR::Principal_curvatures<Kernel>>("v:curvatures").first;
+  for (auto _ : state) CR::principal_curvatures(mesh, map);
+  count_vertices(state, mesh);
+}
+
+void curvatures_averaged(benchmark::State& state)
+{
+  const Input& in = input(state);
+  Mesh mesh = in.source_mesh;
+  const auto map = mesh.add_property_map<Mesh::Vertex_index, CR::Principal_curvatures<Kernel>>("v:curvatures").first;
+  for (auto _ : state) CR::principal_curvatures(mesh, map, CR::parameters::neighbor_radius(4 * in.sampling_distance));
+  count_vertices(state, mesh);
+}
+
+// To the paper's approximation error: by CGAL's edge collapse, the reference ...
+void simplification_plain(benchmark::State& state)
+{
+  const Input& in = input(state);
+  const double error = CR::approximation_error(in.source.image);
+  std::size_t left = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    Mesh mesh = in.source_mesh;
+    state.ResumeTiming();
+    left = CR::simplify_scan(mesh, CR::parameters::approximation_error(error));
+  }
+  count_vertices(state, in.source_mesh);
+  state.counters["left"] = double(left);
+}
+
+// ... and with grouping before the collapse.
+void simplification(benchmark::State& state)
+{
+  const Input& in = input(state);
+  const double error = CR::approximation_error(in.source.image);
+  std::size_t left = 0;
+  for (auto _ : state) {
+    CR::internal::Quadric_simplification simplification(in.flat, 3.5 * in.sampling_distance);
+    simplification.collapse_to_error(error);
+    left = std::size_t(simplification.number_of_vertices());
+  }
+  count_vertices(state, in.source_mesh);
+  state.counters["left"] = double(left);
+}
+
+void preparation_of_image(benchmark::State& state)
+{
+  const Input& in = input(state);
+  for (auto _ : state) benchmark::DoNotOptimize(CR::Scan<Kernel>(in.source.image).spacing());
+  count_vertices(state, in.source_mesh);
+}
+
+void preparation_of_mesh(benchmark::State& state)
+{
+  const Input& in = input(state);
+  for (auto _ : state) benchmark::DoNotOptimize(CR::Scan<Kernel>(in.source_mesh).spacing());
+  count_vertices(state, in.source_mesh);
+}
+
+// What the searches below have in common: scans prepared from about 40,000 samples; their surfels are as many whatever
+// the size of a scan.
+CR::internal::Pose_search<> search_of(const Input& in)
+{
+  return {in.source_scan.prepared(), in.target_scan.prepared()};
+}
+
+void index_of_pairs(benchmark::State& state)
+{
+  const CR::internal::Prepared_scan& target = input(state).target_scan.prepared();
+  const CR::internal::Search_parameters parameters;
+  const float length = parameters.rounds.front().scales.front() * float(target.extent),
+              half_width = parameters.target_half_width * target.coarse.spacing;
+  std::size_t size = 0;
+  for (auto _ : state) {
+    const CR::internal::Surfel_pair_index index(target.coarse.surfels, length, half_width);
+    size = index.size();
+  }
+  state.SetItemsProcessed(state.iterations() * std::int64_t(size));
+}
+
+// Making the candidates of the first round and testing them by witnesses and scores; per look.
+void search_round(benchmark::State& state)
+{
+  const Input& in = input(state);
+  const CR::internal::Search_round round = CR::internal::Search_parameters().rounds.front();
+  std::size_t looks = 0, candidates = 0;
+  for (auto _ : state) {
+    auto search = search_of(in);
+    benchmark::DoNotOptimize(search.next_round(round));
+    looks = search.counts().looks;
+    candidates = search.counts().candidates;
+  }
+  state.SetItemsProcessed(state.iterations() * std::int64_t(looks));
+  state.counters["candidates"] = double(candidates);
+}
+
+// The refinement of the candidates of the first round; per candidate.
+void search_refinement(benchmark::State& state)
+{
+  auto search = search_of(input(state));
+  const CR::internal::Search_round round = CR::internal::Search_parameters().rounds.front();
+  const auto candidates = search.next_round(round);
+  for (auto _ : state) benchmark::DoNotOptimize(search.refined(candidates, round.judged));
+  state.SetItemsProcessed(state.iterations() * std::int64_t(candidates.size()));
+}
+
+void search_judgement(benchmark::State& state)
+{
+  const Input& in = input(state);
+  auto search = search_of(in);
+  const CR::internal::Pose pose = in.true_pose();
+  for (auto _ : state) benchmark::DoNotOptimize(search.judge(pose));
+}
+
+void search_score(benchmark::State& state)
+{
+  const Input& in = input(state);
+  const auto search = search_of(in);
+  const CR::internal::Pose pose = in.true_pose();
+  float score = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(score = search.assess(pose).score());
+  state.counters["score"] = double(score);
+}
+
+void registration(benchmark::State& state)
+{
+  const Input& in = input(state);
+  for (auto _ : state) benchmark::DoNotOptimize(CR::register_scans(in.source_scan, in.target_scan).score());
+}
+
+// All vertices onto the faces of the target, from two sampling distances off.
+void refinement_on_meshes(benchmark::State& state)
+{
+  const Input& in = input(state);
+  CR::internal::Rigid_motion start = in.truth;
+  start.translation += CR::internal::Vector::Constant(2 * in.sampling_distance);
+  const auto motion = CR::internal::to_aff_transformation<Kernel>(start);
+  std::size_t iterations = 0;
+  for (auto _ : state)
+    iterations = CR::refine_motion<CGAL::Sequential_tag>(in.source_mesh, in.target_mesh, motion).iterations;
+  count_vertices(state, in.source_mesh);
+  state.counters["steps"] = double(iterations);
+}
+
+BENCHMARK(curvatures)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(benchmark::kMillisecond);
+BENCHMARK(curvatures_averaged)->Arg(10000)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(simplification_plain)->Arg(10000)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(simplification)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(benchmark::kMillisecond);
+BENCHMARK(preparation_of_image)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(benchmark::kMillisecond);
+BENCHMARK(preparation_of_mesh)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(benchmark::kMillisecond);
+BENCHMARK(index_of_pairs)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(search_round)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(search_refinement)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(search_judgement)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(search_score)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(registration)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(refinement_on_meshes)->Arg(10000)->Arg(40000)->Unit(benchmark::kMillisecond);
+
+} // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,100 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "pcl.h"
+
+#include "../cpu_time.h"
+
+#include <pcl/features/fpfh.h>
+#include <pcl/features/normal_3d.h>
+#include <pcl/filters/voxel_grid.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/registration/sample_consensus_prerejective.h>
+#include <pcl/search/kdtree.h>
+
+#include <cstdlib>
+
+namespace benchmark_tools {
+
+namespace {
+
+using Points = pcl::PointCloud<pcl::PointNormal>;
+
+Points::Ptr to_points(const Peer_scan& scan)
+{
+  Points::Ptr points(new Points);
+  points->reserve(scan.points.size());
+  for (const Vector& p : scan.points) {
+    pcl::PointNormal q;
+    q.x = float(p.x());
+    q.y = float(p.y());
+    q.z = float(p.z());
+    points->push_back(q);
+  }
+  return points;
+}
+
+struct Described
+{
+  Points::Ptr points{new Points};
+  pcl::PointCloud<pcl::FPFHSignature33>::Ptr features{new pcl::PointCloud<pcl::FPFHSignature33>};
+
+  Described(const Points::ConstPtr& all, const Peer_scan& scan, double voxel, const Peer_setting& setting)
+  {
+    pcl::VoxelGrid<pcl::PointNormal> grid;
+    const auto leaf = float(voxel);
+    grid.setLeafSize(leaf, leaf, leaf);
+    grid.setInputCloud(all);
+    grid.filter(*points);
+    pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> normals;
+    normals.setRadiusSearch(setting.normal_radius * voxel);
+    normals.setInputCloud(points);
+    normals.compute(*points);
+    if (setting.orients_normals)
+      for (auto& p : *points)
+        if (scan.faces_away(p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()))
+          p.getNormalVector3fMap() *= -1;
+    pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> estimation;
+    estimation.setRadiusSearch(setting.feature_radius * voxel);
+    estimation.setInputCloud(points);
+    estimation.setInputNormals(points);
+    estimation.compute(*features);
+  }
+};
+
+} // namespace
+
+Peer_answer register_by_pcl(const Peer_scan& source, const Peer_scan& target, const Peer_setting& setting)
+{
+  std::srand(1);
+  const Points::Ptr source_points = to_points(source), target_points = to_points(target);
+
+  Peer_answer answer;
+  const double start = cpu_seconds();
+  const double voxel = setting.voxel * 0.5 * (source.diagonal + target.diagonal);
+  const Described a(source_points, source, voxel, setting), b(target_points, target, voxel, setting);
+  pcl::SampleConsensusPrerejective<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> align;
+  align.setInputSource(a.points);
+  align.setSourceFeatures(a.features);
+  align.setInputTarget(b.points);
+  align.setTargetFeatures(b.features);
+  align.setMaximumIterations(setting.iterations);
+  align.setNumberOfSamples(3);
+  align.setCorrespondenceRandomness(5);
+  align.setSimilarityThreshold(float(setting.edge_similarity));
+  align.setMaxCorrespondenceDistance(setting.distance * voxel);
+  align.setInlierFraction(float(setting.inlier_fraction));
+  pcl::PointCloud<pcl::PointNormal> aligned;
+  align.align(aligned);
+  answer.seconds = cpu_seconds() - start;
+  answer.is_found = align.hasConverged();
+  answer.set_motion(align.getFinalTransformation());
+  return answer;
+}
+
+} // namespace benchmark_tools
