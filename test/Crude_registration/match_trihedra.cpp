@@ -27,6 +27,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -228,11 +229,14 @@ template <class NamedParameters>
 std::vector<CR::Trihedron_match<Kernel>> sorted_matches(const Flat_mesh& s, const Flat_mesh& d,
                                                         const NamedParameters& np)
 {
-  auto found = CR::match_trihedra(to_surface_mesh(s), to_surface_mesh(d), np);
-  const auto by_source = [](const auto& a, const auto& b) { return a.source.origin < b.source.origin; };
-  BOOST_TEST(std::is_sorted(found.begin(), found.end(), by_source));
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return indices(a) < indices(b); });
-  return found;
+  const auto found = CR::match_trihedra(to_surface_mesh(s), to_surface_mesh(d), np);
+  for (std::size_t i = 1; i < found.size(); ++i) BOOST_TEST(found[i - 1].source.origin <= found[i].source.origin);
+  std::map<Match, std::size_t> order;
+  for (std::size_t i = 0; i < found.size(); ++i) order[indices(found[i])] = i;
+  BOOST_TEST(order.size() == found.size()); // none twice
+  std::vector<CR::Trihedron_match<Kernel>> result;
+  for (const auto& i : order) result.push_back(found[i.second]);
+  return result;
 }
 
 } // namespace

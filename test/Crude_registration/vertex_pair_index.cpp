@@ -166,6 +166,40 @@ BOOST_AUTO_TEST_CASE(queries_find_what_brute_force_finds)
   }
 }
 
+BOOST_AUTO_TEST_CASE(queries_may_be_limited_to_classes_of_vertices)
+{
+  generated::Random random(19);
+  const Cloud cloud = random_cloud(80, 5);
+  const auto any = [&] { return std::uint8_t(63.5 * (1 + random.symmetric())); };
+  std::vector<CR::Vertex_classes> classes;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) classes.push_back({{any(), any()}});
+  classes[3] = {{0, 127}};
+  classes[4] = {{127, 0}};
+  const Vertex_pair_index index(cloud.points, cloud.normals, 0, 4, 0.3, 0.4, classes);
+  for (int q = 0; q < 200; ++q) {
+    CR::Vertex_class_limits limits;
+    for (std::size_t k = 0; k < 2; ++k) {
+      limits.first_low[k] = any();
+      limits.first_high[k] = (std::max)(limits.first_low[k], any());
+      limits.second_low[k] = q % 3 == 0 ? std::uint8_t(0) : any();
+      limits.second_high[k] = q % 3 == 0 ? std::uint8_t(127) : (std::max)(limits.second_low[k], any());
+    }
+    const Vertex_pair_descriptor d = of_pair(cloud, std::size_t(q) % 80, std::size_t(q + 7) % 80);
+    const Vertex_pair_tolerance t = {0.5f, 1, q % 2 == 0 ? 3.2f : 1.5f};
+    std::set<Pair> wanted, limited;
+    for (const Pair& p : expected(cloud, 0, 4, d, t)) {
+      const CR::Vertex_classes &a = classes[std::size_t(p.first)], &b = classes[std::size_t(p.second)];
+      bool is_within = true;
+      for (std::size_t k = 0; k < 2; ++k)
+        is_within = is_within && a[k] >= limits.first_low[k] && a[k] <= limits.first_high[k] &&
+                    b[k] >= limits.second_low[k] && b[k] <= limits.second_high[k];
+      if (is_within) wanted.insert(p);
+    }
+    index.for_each_match(d, t, limits, [&](const Vertex_pair_index::Pair& p) { limited.insert({p.first, p.second}); });
+    BOOST_TEST((limited == wanted));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_pair_is_found_with_no_tolerance_at_all)
 {
   const Cloud cloud = random_cloud(50, 21);
@@ -235,6 +269,9 @@ BOOST_AUTO_TEST_CASE(wrong_use_is_named)
   BOOST_TEST(refuses("maximum_length", c.points, c.normals, 0., inf, 0.1, 0.1));
   BOOST_TEST(refuses("length_cell", c.points, c.normals, 0., 1., 0., 0.1));
   BOOST_TEST(refuses("angle_cell", c.points, c.normals, 0., 1., 0.1, nan));
+  using Classes = std::vector<CR::Vertex_classes>;
+  BOOST_TEST(refuses("classes", c.points, c.normals, 0., 1., 0.1, 0.1, Classes(4)));
+  BOOST_TEST(refuses("classes", c.points, c.normals, 0., 1., 0.1, 0.1, Classes(5, {{0, 128}})));
 }
 
 BOOST_AUTO_TEST_CASE(point_grid_finds_what_brute_force_finds)

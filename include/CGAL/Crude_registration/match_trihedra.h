@@ -12,7 +12,6 @@
 #include <CGAL/Crude_registration/Vertex_pair_index.h>
 #include <CGAL/Crude_registration/internal/Curvature_tensors.h>
 #include <CGAL/Crude_registration/internal/Matching_vertices.h>
-#include <CGAL/Crude_registration/internal/Point_grid.h>
 #include <CGAL/Crude_registration/internal/scan_frame.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 #include <CGAL/Crude_registration/principal_curvatures.h>
@@ -28,20 +27,57 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// Where points are near, as a bit for each cell of a grid: false only where none is within the reach. Cells get larger
-// than asked for where they would outnumber the points 512 to one.
-class Occupancy
+// The points of a curvature class: of each principal curvature the multiple of a step below it, from 0 to 127.
+class Curvature_classes
 {
 public:
-  Occupancy() = default;
+  explicit Curvature_classes(double tolerance) : m_tolerance(tolerance), m_scale(8 / tolerance) {}
 
-  Occupancy(const std::vector<Vector>& points, double cell, double reach)
+  Vertex_classes operator()(double minimum, double maximum) const { return {{level(minimum), level(maximum)}}; }
+
+  // The classes of what is within the tolerance, and a little more than that: the comparison itself rounds.
+  std::array<Vertex_classes, 2> around(double minimum, double maximum) const
+  {
+    const auto slack = [&](double k) { return m_tolerance + 1e-9 * (m_tolerance + std::abs(k)); };
+    return {(*this)(minimum - slack(minimum), maximum - slack(maximum)),
+            (*this)(minimum + slack(minimum), maximum + slack(maximum))};
+  }
+
+private:
+  std::uint8_t level(double k) const
+  {
+    return std::uint8_t((std::min)((std::max)(std::floor(k * m_scale) + 64, 0.), 127.));
+  }
+
+  double m_tolerance, m_scale;
+};
+
+inline bool is_within(const Vertex_classes& c, const std::array<Vertex_classes, 2>& limits)
+{
+  return c[0] >= limits[0][0] && c[0] <= limits[1][0] && c[1] >= limits[0][1] && c[1] <= limits[1][1];
+}
+
+// The points within a reach of any place, and some others near, by one look-up: each cell of a grid lists the points
+// within the reach of a place in it. Cells get larger than asked for where they would outnumber the points 512 to one.
+class Near_points
+{
+public:
+  struct Entry
+  {
+    std::int32_t point;
+    Vertex_classes classes;
+  };
+
+  Near_points() = default;
+
+  Near_points(const std::vector<Vector>& points, const std::vector<Vertex_classes>& classes, double cell, double reach)
   {
     if (points.empty()) return;
     Vector low = points.front(), high = low;
@@ -54,48 +90,66 @@ public:
     while (((size / cell).array().floor() + 1).prod() > 512. * double(points.size())) cell *= 1.25;
     m_scale = 1 / cell;
     for (int i = 0; i < 3; ++i) m_cells[std::size_t(i)] = int(size[i] * m_scale) + 1;
-    m_bits.assign(std::size_t(m_cells[0]) * std::size_t(m_cells[1]) * std::size_t(m_cells[2]) / 64 + 1, 0);
-    for (const Vector& p : points) {
-      const Vector from = (p.array() - reach - m_low.array()) * m_scale,
-                   to = (p.array() + reach - m_low.array()) * m_scale;
+    const std::size_t cells = std::size_t(m_cells[0]) * std::size_t(m_cells[1]) * std::size_t(m_cells[2]);
+    m_is_near.assign(cells / 64 + 1, 0);
+    m_begin.assign(cells + 1, 0);
+    // A little less than the distance of a cell, so that rounding leaves none out.
+    const double most = 1.000002 * (reach * m_scale) * (reach * m_scale);
+    std::vector<std::pair<std::uint32_t, std::int32_t>> found;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const Vector p = (points[j] - m_low) * m_scale;
       int first[3], last[3];
       for (int i = 0; i < 3; ++i) {
-        first[i] = (std::max)(0, int(std::floor(from[i])));
-        last[i] = (std::min)(m_cells[std::size_t(i)] - 1, int(to[i]));
+        first[i] = (std::max)(0, int(std::floor(p[i] - reach * m_scale)));
+        last[i] = (std::min)(m_cells[std::size_t(i)] - 1, int(p[i] + reach * m_scale));
       }
-      for (int z = first[2]; z <= last[2]; ++z)
-        for (int y = first[1]; y <= last[1]; ++y)
-          for (int x = first[0]; x <= last[0]; ++x)
-            if (distance_to_cell(p, x, y, z) <= reach)
-              m_bits[bit(x, y, z) >> 6] |= std::uint64_t(1) << (bit(x, y, z) & 63);
+      const auto off = [&](int i, int c) { return (std::max)({0., c - p[i], p[i] - (c + 1)}); };
+      for (int z = first[2]; z <= last[2]; ++z) {
+        const double dz = off(2, z);
+        for (int y = first[1]; y <= last[1]; ++y) {
+          const double dy = off(1, y);
+          for (int x = first[0]; x <= last[0]; ++x) {
+            const double dx = off(0, x);
+            if (dx * dx + dy * dy + dz * dz > most) continue;
+            const std::size_t c = cell_index(x, y, z);
+            ++m_begin[c + 1];
+            m_is_near[c >> 6] |= std::uint64_t(1) << (c & 63);
+            found.push_back({std::uint32_t(c), std::int32_t(j)});
+          }
+        }
+      }
     }
+    for (std::size_t c = 1; c < m_begin.size(); ++c) m_begin[c] += m_begin[c - 1];
+    std::vector<std::uint32_t> next(m_begin.begin(), m_begin.end() - 1);
+    m_entries.resize(found.size());
+    for (const auto& [c, j] : found) m_entries[next[c]++] = {j, classes[std::size_t(j)]};
   }
 
-  bool is_near(const Vector& p) const
+  // f(point) for all points of some classes within the reach of p, and others near, in the order of their index.
+  template <class Function>
+  void for_each_near(const Vector& p, const std::array<Vertex_classes, 2>& limits, Function&& f) const
   {
     const double x = (p[0] - m_low[0]) * m_scale, y = (p[1] - m_low[1]) * m_scale, z = (p[2] - m_low[2]) * m_scale;
-    if (!(x >= 0 && y >= 0 && z >= 0 && x < m_cells[0] && y < m_cells[1] && z < m_cells[2])) return false;
-    const std::size_t b = bit(int(x), int(y), int(z));
-    return (m_bits[b >> 6] >> (b & 63)) & 1;
+    if (!(x >= 0 && y >= 0 && z >= 0 && x < m_cells[0] && y < m_cells[1] && z < m_cells[2])) return;
+    const std::size_t c = cell_index(int(x), int(y), int(z));
+    // Most places are near nothing: one bit says so, and all bits are in the cache.
+    if (!((m_is_near[c >> 6] >> (c & 63)) & 1)) return;
+    for (std::size_t i = m_begin[c]; i < m_begin[c + 1]; ++i)
+      if (is_within(m_entries[i].classes, limits)) f(std::size_t(m_entries[i].point));
   }
 
 private:
-  std::size_t bit(int x, int y, int z) const
+  std::size_t cell_index(int x, int y, int z) const
   {
     return (std::size_t(z) * std::size_t(m_cells[1]) + std::size_t(y)) * std::size_t(m_cells[0]) + std::size_t(x);
-  }
-
-  double distance_to_cell(const Vector& p, int x, int y, int z) const
-  {
-    const Vector low = m_low + Vector(x, y, z) / m_scale, high = m_low + Vector(x + 1, y + 1, z + 1) / m_scale;
-    // A little less than the distance, so that rounding leaves no cell out.
-    return 0.999999 * (p - p.cwiseMax(low).cwiseMin(high)).norm();
   }
 
   Vector m_low = Vector::Zero();
   double m_scale = 1;
   std::array<int, 3> m_cells{};
-  std::vector<std::uint64_t> m_bits;
+  std::vector<std::uint64_t> m_is_near; // a bit for each cell
+  std::vector<std::uint32_t> m_begin;   // of each cell in m_entries
+  std::vector<Entry> m_entries;
 };
 
 struct Match_tolerances
@@ -139,32 +193,38 @@ public:
   // take part if they are described, on the border or not: the border of D may run through the inside of S.
   Trihedron_matching(const Matching_vertices& s, const Matching_vertices& d, double shortest, double longest,
                      const Match_tolerances& tolerances)
-      : m_s(s), m_tolerances(tolerances), m_least_cosine(std::cos((std::min)(tolerances.angle, CGAL_PI)))
+      : m_s(s), m_tolerances(tolerances), m_least_cosine(std::cos((std::min)(tolerances.angle, CGAL_PI))),
+        m_classes(tolerances.curvature)
   {
+    std::vector<Vertex_classes> classes;
     for (std::size_t i = 0; i < d.points.size(); ++i) {
       if (d.normals[i].isZero(0)) continue;
       m_vertices.push_back(std::int32_t(i));
       m_points.push_back(d.points[i]);
       m_normals.push_back(d.normals[i]);
       m_curvatures.push_back({d.minimum_curvatures[i], d.maximum_curvatures[i]});
+      classes.push_back(m_classes(d.minimum_curvatures[i], d.maximum_curvatures[i]));
     }
     const double least = (std::max)(0., shortest - tolerances.length), most = longest + tolerances.length;
-    m_index = Vertex_pair_index(m_points, tolerances.use_normals ? m_normals : std::vector<Vector>(), least, most,
-                                tolerances.length / 2, tolerances.use_normals ? tolerances.angle / 2 : CGAL_PI);
-    m_grid = Point_grid(m_points, 2 * tolerances.length);
-    m_reach = 1.4143 * tolerances.length;
-    m_occupancy = Occupancy(m_points, tolerances.length, m_reach);
+    m_index =
+        Vertex_pair_index(m_points, tolerances.use_normals ? m_normals : std::vector<Vector>(), least, most,
+                          tolerances.length / 2, tolerances.use_normals ? tolerances.angle / 2 : CGAL_PI, classes);
+    m_near = Near_points(m_points, classes, tolerances.length, 1.4143 * tolerances.length);
+    for (const Vertex_classes& c : classes) ++m_counts[c[0] + 1u][c[1] + 1u];
+    for (std::size_t i = 1; i < 129; ++i)
+      for (std::size_t j = 1; j < 129; ++j)
+        m_counts[i][j] += m_counts[i - 1][j] + m_counts[i][j - 1] - m_counts[i - 1][j - 1];
   }
 
   // A trihedron with its ends in the order in which its search costs least: the pairs of D that may correspond to the
-  // first arm are tried one by one, so that arm is the first one that has fewest.
+  // first arm are tried one by one, so that arm is the first one that may be expected to have fewest.
   Spatial_trihedron rarest_first(Spatial_trihedron t) const
   {
-    std::array<std::size_t, 3> looks;
+    std::array<double, 3> pairs;
     for (std::size_t i = 0; i < 3; ++i)
-      looks[i] = m_index.number_of_looks(descriptor(t.origin, t.ends[i]),
-                                         pair_tolerance(source_frame(t.origin, t.ends[i]).lever));
-    const auto rarest = std::size_t(std::min_element(looks.begin(), looks.end()) - looks.begin());
+      pairs[i] = double(m_index.number_of_looks(descriptor(t.origin, t.ends[i]), pair_tolerance(t.origin, t.ends[i]))) *
+                 double(number_of_alike(t.ends[i]));
+    const auto rarest = std::size_t(std::min_element(pairs.begin(), pairs.end()) - pairs.begin());
     const std::array<std::int32_t, 3> ends = t.ends;
     for (std::size_t i = 0; i < 3; ++i) t.ends[i] = ends[(rarest + i) % 3];
     return t;
@@ -211,9 +271,11 @@ public:
     triangle_frame << frame.u, (cross / area).cross(frame.u), cross / area;
     const Vector third_normal = triangle_frame.transpose() * normal[3];
 
+    const auto limits0 = limits(s[0]), limits1 = limits(s[1]), limits2 = limits(s[2]), limits3 = limits(s[3]);
     std::array<Vector, 4> y;
     m_index.for_each_match(
-        descriptor(s[0], s[1]), pair_tolerance(frame.lever), [&](const Vertex_pair_index::Pair& pair) {
+        descriptor(s[0], s[1]), pair_tolerance(s[0], s[1]), {limits0[0], limits0[1], limits1[0], limits1[1]},
+        [&](const Vertex_pair_index::Pair& pair) {
           const auto c0 = std::size_t(pair.first), c1 = std::size_t(pair.second);
           if (!curvatures_agree(s[0], c0) || !curvatures_agree(s[1], c1)) return;
           y[0] = m_points[c0];
@@ -227,9 +289,7 @@ public:
           ++work.pairs;
           for (const auto& [cosine, sine] : work.turns) {
             const Vector place = foot + cosine * towards + sine * sideways;
-            if (!m_occupancy.is_near(place)) continue;
-            m_grid.for_each_within(place, m_reach, [&](std::int32_t index2, double) {
-              const auto c2 = std::size_t(index2);
+            m_near.for_each_near(place, limits2, [&](std::size_t c2) {
               if (work.tried_for[c2] == work.pairs) return;
               work.tried_for[c2] = work.pairs;
               y[2] = m_points[c2];
@@ -250,8 +310,8 @@ public:
               Matrix image_frame;
               image_frame << image.u, n.cross(image.u), n;
               const Vector expected_third = image_frame * third_normal;
-              m_grid.for_each_within(p, tolerance, [&](std::int32_t index3, double) {
-                const auto c3 = std::size_t(index3);
+              m_near.for_each_near(p, limits3, [&](std::size_t c3) {
+                if (!((m_points[c3] - p).squaredNorm() <= tolerance * tolerance)) return;
                 if (!normals_agree(c3, expected_third) || !curvatures_agree(s[3], c3)) return;
                 y[3] = m_points[c3];
                 // A small trihedron's place for v3 may reach to the other side of the plane: a mirror image.
@@ -266,20 +326,19 @@ public:
 
 private:
   // Axes on a pair of points: u along the line, v towards the mean of the normals, w = u x v; without normals v is
-  // any. `lever`: the smaller sine of the angles between the line and the normals.
+  // any.
   struct Pair_frame
   {
     Pair_frame(const Vector& p, const Vector& np, const Vector& q, const Vector& nq, bool use_normals)
     {
       u = q - p;
-      u /= u.norm();
+      u *= 1 / u.norm();
       if (use_normals) {
         const double cp = np.dot(u), cq = nq.dot(u);
-        lever = std::sqrt((std::max)(0., 1 - (std::max)(cp * cp, cq * cq)));
         v = np + nq - (cp + cq) * u;
         spread = v.norm();
       }
-      if (spread > 1e-6) v /= spread;
+      if (spread > 1e-6) v *= 1 / spread;
       else v = u.unitOrthogonal();
       w = u.cross(v);
     }
@@ -291,14 +350,8 @@ private:
     double uncertainty(double angle) const { return 2 * angle < CGAL_PI * spread ? 2 * angle / spread : CGAL_PI; }
 
     Vector u, v, w;
-    double lever = 0, spread = 0;
+    double spread = 0;
   };
-
-  Pair_frame source_frame(std::int32_t v, std::int32_t w) const
-  {
-    return Pair_frame(m_s.points[std::size_t(v)], m_s.normals[std::size_t(v)], m_s.points[std::size_t(w)],
-                      m_s.normals[std::size_t(w)], m_tolerances.use_normals);
-  }
 
   Vertex_pair_descriptor descriptor(std::int32_t v, std::int32_t w) const
   {
@@ -308,10 +361,29 @@ private:
   }
 
   // A normal that is off by an angle turns the torsion by that angle over the sine of the normal's angle with the line.
-  Vertex_pair_tolerance pair_tolerance(double lever) const
+  Vertex_pair_tolerance pair_tolerance(std::int32_t v, std::int32_t w) const
   {
     const double angle = m_tolerances.angle;
-    return {float(m_tolerances.length), float(angle), float(angle < CGAL_PI * lever ? angle / lever : CGAL_PI)};
+    double sine = 0;
+    if (m_tolerances.use_normals) {
+      const Vector u = (m_s.points[std::size_t(w)] - m_s.points[std::size_t(v)]).normalized();
+      const double cv = u.dot(m_s.normals[std::size_t(v)]), cw = u.dot(m_s.normals[std::size_t(w)]);
+      sine = std::sqrt((std::max)(0., 1 - (std::max)(cv * cv, cw * cw)));
+    }
+    return {float(m_tolerances.length), float(angle), float(angle < CGAL_PI * sine ? angle / sine : CGAL_PI)};
+  }
+
+  std::array<Vertex_classes, 2> limits(std::int32_t s) const
+  {
+    return m_classes.around(m_s.minimum_curvatures[std::size_t(s)], m_s.maximum_curvatures[std::size_t(s)]);
+  }
+
+  // The vertices of D in the curvature classes of a vertex of S.
+  std::int32_t number_of_alike(std::int32_t s) const
+  {
+    const auto [low, high] = limits(s);
+    return m_counts[high[0] + 1u][high[1] + 1u] - m_counts[low[0]][high[1] + 1u] - m_counts[high[0] + 1u][low[1]] +
+           m_counts[low[0]][low[1]];
   }
 
   bool curvatures_agree(std::int32_t s, std::size_t d) const
@@ -332,10 +404,10 @@ private:
   std::vector<std::int32_t> m_vertices;
   std::vector<Vector> m_points, m_normals;
   std::vector<std::array<double, 2>> m_curvatures;
+  Curvature_classes m_classes;
   Vertex_pair_index m_index;
-  Point_grid m_grid;
-  double m_reach;
-  Occupancy m_occupancy;
+  Near_points m_near;
+  std::array<std::array<std::int32_t, 129>, 129> m_counts{}; // of vertices of D in all lower classes
 };
 
 inline std::array<double, 2> range_of_arms(const std::vector<Vector>& points,

@@ -20,6 +20,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -46,31 +48,34 @@ public:
   Motion_evaluation(const Prepared_scan& source, const Matching_vertices& s, const Prepared_scan& target,
                     const Matching_vertices& d, double spacing)
       : m_source(source), m_target(target), m_spacing(spacing), m_source_probes(probes(s)), m_target_probes(probes(d)),
-        m_s(s), m_vertices{Point_grid(d.points, spacing), d}, m_surface{target.coarse}
+        m_s(s), m_vertices{m_target_probes, field_of(m_target_probes, float(spacing))}, m_surface{target.coarse}
   {
     for (std::size_t i = 0; i < s.points.size(); ++i) m_mean += s.points[i] / double(s.points.size());
     for (const Vector& p : s.points) m_covariance += (p - m_mean) * (p - m_mean).transpose() / double(s.points.size());
-    const std::size_t stride = source.fine.surfels.size() / 1500 + 1;
-    for (std::size_t i = 0; i < source.fine.surfels.size(); i += stride) {
-      m_points.push_back(source.fine.surfels[i].position.cast<double>());
-      m_normals.push_back(source.fine.surfels[i].normal.cast<double>());
+    for (const Surfel& surfel : some_of(source.fine.surfels, 1500)) {
+      m_points.push_back(surfel.position.cast<double>());
+      m_normals.push_back(surfel.normal.cast<double>());
     }
+    m_fine_source_probes = some_of(source.fine.surfels, 2000);
+    m_fine_target_probes = some_of(target.fine.surfels, 2000);
   }
 
-  // A look at a crude motion by at most `count` vertices of each mesh.
-  Motion_score coarse_score(const Rigid_motion& motion, std::size_t count) const
+  // A look at a crude motion by at most `count` vertices of each mesh. It ends where `least` is out of reach: the value
+  // is then any below it.
+  Motion_score coarse_score(const Rigid_motion& motion, std::size_t count,
+                            double least = -(std::numeric_limits<double>::max)()) const
   {
     const auto spacing = float(m_spacing);
-    return score(motion, m_source_probes, m_target_probes, count, m_target.coarse, 0.6f * spacing, 0.7f,
-                 0.8f * spacing);
+    return score(motion, m_source_probes, m_target_probes, count, m_target.coarse, 0.6f * spacing, 0.7f, 0.8f * spacing,
+                 least);
   }
 
-  // A tight look at a refined motion by all the surface.
+  // A tight look at a refined motion by all parts of the surface.
   Motion_score fine_score(const Rigid_motion& motion) const
   {
     const auto u = float((std::max)(m_source.spacing, m_target.spacing));
-    return score(motion, m_source.fine.surfels, m_target.fine.surfels, std::size_t(-1), m_target.fine, 1.4f * u, 0.9f,
-                 4 * u);
+    return score(motion, m_fine_source_probes, m_fine_target_probes, std::size_t(-1), m_target.fine, 1.4f * u, 0.9f,
+                 4 * u, -(std::numeric_limits<double>::max)());
   }
 
   // A crude motion after some steps of fine registration.
@@ -91,7 +96,7 @@ public:
     Refinement_options options;
     options.sampling_distance = m_spacing / 2;
     options.reach = m_spacing;
-    options.maximum_number_of_iterations = 5;
+    options.maximum_number_of_iterations = 8;
     return Point_to_plane<Sequential_tag, Vertices>(m_s.points, m_s.normals, m_vertices, options)(motion).motion;
   }
 
@@ -104,6 +109,19 @@ public:
   }
 
 private:
+  // Some surfels, evenly spread.
+  static std::vector<Surfel> some_of(const std::vector<Surfel>& surfels, std::size_t number)
+  {
+    std::vector<Surfel> result;
+    for (std::size_t i = 0; i < surfels.size(); i += surfels.size() / number + 1) result.push_back(surfels[i]);
+    return result;
+  }
+
+  static Surfel_field field_of(const std::vector<Surfel>& vertices, float spacing)
+  {
+    return Surfel_field(some_of(vertices, Surfel_field::maximum_size), 0.4f * spacing, spacing);
+  }
+
   struct Motion_f
   {
     explicit Motion_f(const Rigid_motion& m)
@@ -136,23 +154,17 @@ private:
   // The vertices of the target's simplified mesh.
   struct Vertices
   {
-    Point_grid grid;
-    const Matching_vertices& vertices;
+    const std::vector<Surfel>& vertices;
+    Surfel_field field;
 
     bool closest(const Vector& query, double reach, Surface_point& answer) const
     {
-      std::int32_t nearest = -1;
-      double least = 0;
-      grid.for_each_within(query, reach, [&](std::int32_t i, double d) {
-        if (vertices.normals[std::size_t(i)].isZero(0) || (nearest >= 0 && d >= least)) return;
-        least = d;
-        nearest = i;
-      });
-      if (nearest < 0) return false;
-      answer.point = vertices.points[std::size_t(nearest)];
-      answer.normal = vertices.normals[std::size_t(nearest)];
+      const int i = field.nearest(query.cast<float>());
+      if (i < 0) return false;
+      answer.point = vertices[std::size_t(i)].position.cast<double>();
+      answer.normal = vertices[std::size_t(i)].normal.cast<double>();
       answer.is_on_border = false;
-      return true;
+      return (answer.point - query).squaredNorm() <= reach * reach;
     }
   };
 
@@ -173,13 +185,25 @@ private:
   }
 
   Motion_score score(const Rigid_motion& motion, const std::vector<Surfel>& source, const std::vector<Surfel>& target,
-                     std::size_t count, const Surfel_level& level, float distance, float least_cosine,
-                     float free_depth) const
+                     std::size_t count, const Surfel_level& level, float distance, float least_cosine, float free_depth,
+                     double least) const
   {
     const Motion_f forth(motion), back(motion.inverse());
     const std::size_t n = (std::min)(count, source.size()), m = (std::min)(count, target.size());
     std::size_t agreeing = 0, before_target = 0, before_source = 0;
+    // With `open` probes of the source to come. No later value is above that with all of them agreeing.
+    const auto result = [&](std::size_t open) {
+      Motion_score r;
+      if (n > 0) {
+        r.agreeing = double(agreeing + open) / double(n);
+        r.violating = double(before_target) / double(n);
+      }
+      if (m > 0) r.violating += double(before_source) / double(m);
+      return r;
+    };
+    constexpr std::size_t every = 8; // probes between looks at the bound
     for (std::size_t i = 0; i < n; ++i) {
+      if (i % every == 0 && result(n - i).value() < least) return result(n - i);
       const Vector_f p = forth(source[i].position);
       const int j = level.field.nearest(p);
       if (j >= 0) {
@@ -193,15 +217,11 @@ private:
       before_target += m_target.depths.is_known() && m_target.depths.in_front(p) > free_depth;
     }
     if (m_source.depths.is_known())
-      for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t i = 0; i < m; ++i) {
+        if (i % every == 0 && result(0).value() < least) break;
         before_source += m_source.depths.in_front(back(target[i].position)) > free_depth;
-    Motion_score result;
-    if (n > 0) {
-      result.agreeing = double(agreeing) / double(n);
-      result.violating = double(before_target) / double(n);
-    }
-    if (m > 0) result.violating += double(before_source) / double(m);
-    return result;
+      }
+    return result(0);
   }
 
   const Prepared_scan& m_source;
@@ -212,6 +232,7 @@ private:
   Vertices m_vertices;
   Surfels m_surface;
   std::vector<Vector> m_points, m_normals; // of the source, to refine with
+  std::vector<Surfel> m_fine_source_probes, m_fine_target_probes;
   Vector m_mean = Vector::Zero();
   Matrix m_covariance = Matrix::Zero();
 };

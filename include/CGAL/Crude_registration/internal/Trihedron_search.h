@@ -15,12 +15,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
 
 namespace CGAL {
@@ -70,29 +71,32 @@ struct Trihedron_search_parameters
   double minimum_extent = 0;   // f1
   double maximum_extent = 0.3; // f2
   bool use_normals = true;
-  // Passes follow each other until the best motion's fine score is at least `certain_score`. Every pass looks at all
-  // its trihedra and the whole D-mesh.
+  // Passes follow each other until the best motion's fine score is at least `certain_score`. Every pass looks up all
+  // its trihedra in the whole D-mesh and scores every candidate.
   std::vector<Trihedron_pass> passes = {{{2. / 3}, 1, 0.7, 12, 0.15},
                                         {{1, 2. / 3}, 1, 0.7, 15, 0.2},
                                         {{1, 2. / 3}, 4, 0.7, 20, 0.2},
                                         {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4}};
   double certain_score = 0.1;
+  // All candidates are scored by a few of the vertices, the best of them by more, the best of these by all; the best
+  // distinct ones are estimated again from all vertices, scored again by all, and refined from the best one on until
+  // one is certain.
   std::size_t coarse_probes = 96;
   std::size_t kept_by_trihedron = 8;
-  std::size_t kept = 1000;   // by all their vertices
-  std::size_t distinct = 24; // refined
+  std::size_t kept = 1000;
+  std::size_t more_probes = 256;
+  std::size_t kept_by_more = 100;
+  std::size_t distinct = 48;
+  std::size_t refined_at_once = 2; // by different threads
 };
 
 struct Trihedron_search_result
 {
   bool is_found = false; // whether there was any candidate
-  // From the own frame of the source to that of the target: the motion of the best trihedron, of all vertices that
+  // From the own frame of the source to that of the target: the motion of the best trihedron, that of all vertices that
   // agree under it, and refined.
   Rigid_motion trihedron_motion, crude_motion, refined_motion;
-  double score = 0;           // the fine score of the refined motion
-  double runner_up_score = 0; // the best of a distinct one
-  Spatial_trihedron trihedron{};
-  std::array<std::int32_t, 4> vertices{};
+  double score = 0; // the fine score of the refined motion
   std::size_t passes = 0, trihedra = 0, candidates = 0;
   double seconds = 0;
 };
@@ -130,6 +134,50 @@ private:
     double score;
   };
 
+  struct Crude_motion
+  {
+    Rigid_motion trihedron_motion, motion;
+    double score;
+  };
+
+  // A bound of the score that the last of the best so many candidates has. At any time at least that many scores of
+  // candidates that take part to the end are above the bound: what is below it is not among the best, whatever the
+  // other threads have added so far.
+  class Best_scores
+  {
+  public:
+    Best_scores(std::size_t number, std::size_t probes)
+        : m_number(number), m_probes(double(probes)), m_counts(probes + 1)
+    {}
+
+    double least() const { return m_least.load(std::memory_order_relaxed); }
+
+    void add(double score)
+    {
+      // Rounded down by more than the rounding of a score. What is not above zero does not count.
+      const double level = score * m_probes - 1e-6;
+      if (!(level >= 0)) return;
+      ++m_counts[std::size_t(level)];
+      std::size_t sum = 0;
+      for (std::size_t i = m_counts.size(); i-- > 0;) {
+        sum += m_counts[i];
+        if (sum < m_number) continue;
+        const double least = double(i) / m_probes;
+        for (double l = m_least; l < least && !m_least.compare_exchange_weak(l, least);) {
+        }
+        return;
+      }
+    }
+
+  private:
+    std::size_t m_number;
+    double m_probes;
+    std::vector<std::atomic<std::size_t>> m_counts;
+    std::atomic<double> m_least{-(std::numeric_limits<double>::max)()};
+  };
+
+  double spacing() const { return (std::max)(m_s.spacing, m_d.spacing); }
+
   void run(const Trihedron_pass& pass, Trihedron_search_result& result)
   {
     Trihedron_options options;
@@ -142,34 +190,29 @@ private:
     result.trihedra += trihedra.size();
 
     std::size_t count = 0;
-    const std::vector<Scored_candidate> candidates = distinct(match(pass, trihedra, count));
+    const std::vector<Crude_motion> crude = crude_motions(match(pass, trihedra, count));
     result.candidates += count;
-    if (candidates.empty()) return;
 
-    std::vector<Rigid_motion> refined(candidates.size());
-    std::vector<double> scores(candidates.size());
-    for_each_index(candidates.size(), [&](std::size_t i) {
-      refined[i] = m_evaluation.refined(candidates[i].candidate.motion);
-      scores[i] = m_evaluation.fine_score(refined[i]).value();
-    });
-    const auto best = std::size_t(std::max_element(scores.begin(), scores.end()) - scores.begin());
-    if (result.is_found && scores[best] <= result.score) return;
-    const double spacing = (std::max)(m_s.spacing, m_d.spacing);
-    result.is_found = true;
-    result.score = scores[best];
-    result.refined_motion = refined[best];
-    // Of the candidates that lead to the same place the one that was best before.
-    std::size_t crude = best;
-    double runner_up = 0;
-    for (std::size_t i = candidates.size(); i-- > 0;)
-      if (m_evaluation.distance(refined[i], refined[best]) < spacing / 2) crude = i;
-      else runner_up = (std::max)(runner_up, scores[i]);
-    result.runner_up_score = runner_up;
-    const Candidate_motion& c = candidates[crude].candidate;
-    result.trihedron_motion = c.motion;
-    result.crude_motion = m_evaluation.reestimated(c.motion);
-    result.trihedron = trihedra[std::size_t(c.trihedron)];
-    result.vertices = c.vertices;
+    // In their order, some at a time (always the same number, whatever the number of threads), until one is certain.
+    for (std::size_t from = 0; from < crude.size() && !(result.is_found && result.score >= m_parameters.certain_score);
+         from += m_parameters.refined_at_once) {
+      std::vector<Rigid_motion> refined((std::min)(m_parameters.refined_at_once, crude.size() - from));
+      std::vector<double> scores(refined.size(), -(std::numeric_limits<double>::max)());
+      for_each_index(refined.size(), [&](std::size_t i) {
+        refined[i] = m_evaluation.refined(crude[from + i].motion);
+        // What ends elsewhere is no crude registration of where it ends.
+        if (m_evaluation.distance(refined[i], crude[from + i].motion) < spacing())
+          scores[i] = m_evaluation.fine_score(refined[i]).value();
+      });
+      for (std::size_t i = 0; i < refined.size(); ++i) {
+        if (scores[i] <= (result.is_found ? result.score : -(std::numeric_limits<double>::max)())) continue;
+        result.is_found = true;
+        result.score = scores[i];
+        result.refined_motion = refined[i];
+        result.crude_motion = m_evaluation.reestimated(crude[from + i].motion);
+        result.trihedron_motion = crude[from + i].trihedron_motion;
+      }
+    }
   }
 
   // The candidates of all trihedra, each applied and scored; the best few of each trihedron are returned, by trihedron.
@@ -193,6 +236,7 @@ private:
       std::size_t count = 0;
     };
     std::vector<Slot> slots((trihedra.size() + chunk - 1) / chunk);
+    Best_scores best_scores(m_parameters.kept, m_parameters.coarse_probes);
     for_each_index(slots.size(), [&](std::size_t k) {
       Trihedron_matching::Workspace work;
       std::vector<Scored_candidate> found;
@@ -203,10 +247,12 @@ private:
           Scored_candidate c;
           if (!candidate_motion(std::int32_t(t), vertices, x, y, c.candidate)) return;
           ++slots[k].count;
-          c.score = m_evaluation.coarse_score(c.candidate.motion, m_parameters.coarse_probes).value();
-          found.push_back(c);
+          const double least = best_scores.least();
+          c.score = m_evaluation.coarse_score(c.candidate.motion, m_parameters.coarse_probes, least).value();
+          if (c.score >= least) found.push_back(c);
         });
         keep_best(found, m_parameters.kept_by_trihedron);
+        for (const Scored_candidate& c : found) best_scores.add(c.score);
         slots[k].best.insert(slots[k].best.end(), found.begin(), found.end());
       }
     });
@@ -218,31 +264,54 @@ private:
     return candidates;
   }
 
-  // The best candidates by all vertices, best first, each further than a spacing from all before.
-  std::vector<Scored_candidate> distinct(std::vector<Scored_candidate> candidates) const
+  // The best of the candidates, estimated again from all vertices that agree under them: what aligns S best over D
+  // first.
+  std::vector<Crude_motion> crude_motions(std::vector<Scored_candidate> candidates) const
   {
-    keep_best(candidates, m_parameters.kept);
-    for_each_index(candidates.size(), [&](std::size_t i) {
-      candidates[i].score = m_evaluation.coarse_score(candidates[i].candidate.motion, std::size_t(-1)).value();
-    });
+    constexpr auto all = std::size_t(-1);
+    const auto look = [&](std::size_t number, std::size_t probes) {
+      keep_best(candidates, number);
+      for_each_index(candidates.size(), [&](std::size_t i) {
+        candidates[i].score = m_evaluation.coarse_score(candidates[i].candidate.motion, probes).value();
+      });
+    };
+    look(m_parameters.kept, m_parameters.more_probes);
+    look(m_parameters.kept_by_more, all);
     keep_best(candidates, candidates.size());
-    const double spacing = (std::max)(m_s.spacing, m_d.spacing);
-    std::vector<Scored_candidate> result;
+
+    std::vector<Crude_motion> crude;
     for (const Scored_candidate& c : candidates) {
-      if (result.size() == m_parameters.distinct) break;
-      if (std::none_of(result.begin(), result.end(), [&](const Scored_candidate& r) {
-            return m_evaluation.distance(c.candidate.motion, r.candidate.motion) < spacing;
-          }))
-        result.push_back(c);
+      if (crude.size() == m_parameters.distinct) break;
+      const Rigid_motion& m = c.candidate.motion;
+      if (is_distinct(m, crude, spacing(), [](const Crude_motion& r) { return r.trihedron_motion; }))
+        crude.push_back({m, m, 0});
     }
+    for_each_index(crude.size(), [&](std::size_t i) {
+      crude[i].motion = m_evaluation.reestimated(crude[i].trihedron_motion);
+      crude[i].score = m_evaluation.coarse_score(crude[i].motion, all).value();
+    });
+    keep_best(crude, crude.size());
+    std::vector<Crude_motion> result;
+    for (const Crude_motion& c : crude)
+      if (is_distinct(c.motion, result, spacing() / 4, [](const Crude_motion& r) { return r.motion; }))
+        result.push_back(c);
     return result;
   }
 
+  template <class Motion_of>
+  bool is_distinct(const Rigid_motion& motion, const std::vector<Crude_motion>& others, double distance,
+                   const Motion_of& motion_of) const
+  {
+    return std::none_of(others.begin(), others.end(),
+                        [&](const Crude_motion& o) { return m_evaluation.distance(motion, motion_of(o)) < distance; });
+  }
+
   // The `count` best, best first; equal ones stay in their order.
-  static void keep_best(std::vector<Scored_candidate>& candidates, std::size_t count)
+  template <class Candidate>
+  static void keep_best(std::vector<Candidate>& candidates, std::size_t count)
   {
     std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Scored_candidate& a, const Scored_candidate& b) { return a.score > b.score; });
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     if (candidates.size() > count) candidates.resize(count);
   }
 
