@@ -32,10 +32,14 @@ inline Peer_setting open3d_fgr_documented()
   return s;
 }
 
+// Of the settings that compare_with_peers --tune compares, on a third of the bunny's pairs with an overlap of 0.1 or
+// more, normals oriented towards the sensor: those with the most right answers, the fastest first.
 inline Peer_setting open3d_ransac_tuned()
 {
   Peer_setting s = open3d_ransac_documented();
   s.orients_normals = true;
+  s.voxel = 0.01;
+  s.feature_radius = 8;
   return s;
 }
 
@@ -43,6 +47,17 @@ inline Peer_setting open3d_fgr_tuned()
 {
   Peer_setting s = open3d_fgr_documented();
   s.orients_normals = true;
+  s.voxel = 0.01;
+  return s;
+}
+
+// The fastest one that still has nine of ten answers right where the overlap is 0.3 or more, at the cost of the others.
+inline Peer_setting open3d_fgr_tuned_for_speed()
+{
+  Peer_setting s = open3d_fgr_documented();
+  s.orients_normals = true;
+  s.voxel = 0.02;
+  s.feature_radius = 8;
   return s;
 }
 
