@@ -77,7 +77,8 @@ if(CRUDE_REGISTRATION_CLANG_TIDY)
     string(MAKE_C_IDENTIFIER ${name} stamp)
     set(stamp ${PROJECT_BINARY_DIR}/tidy/${stamp})
     add_custom_command(OUTPUT ${stamp}
-      COMMAND ${CRUDE_REGISTRATION_CLANG_TIDY} --quiet --warnings-as-errors=* -p ${PROJECT_BINARY_DIR} ${program}
+      COMMAND ${CRUDE_REGISTRATION_CLANG_TIDY} --quiet --warnings-as-errors=*
+              --extra-arg=-Wno-unknown-warning-option -p ${PROJECT_BINARY_DIR} ${program}
       COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
       DEPENDS ${program} ${absolute_headers} ${PROJECT_SOURCE_DIR}/.clang-tidy VERBATIM COMMENT "clang-tidy ${name}")
     list(APPEND stamps ${stamp})
