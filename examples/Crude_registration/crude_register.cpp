@@ -335,8 +335,8 @@ int run_register(const std::vector<std::string>& arguments)
   const auto& [source, target] = sides;
 
   const auto start = std::chrono::steady_clock::now();
-  const Result result =
-      CR::register_scans(*source.scan, *target.scan, CR::parameters::minimum_extent(f1).maximum_extent(f2));
+  const Result result = CR::register_scans<CGAL::Parallel_if_available_tag>(
+      *source.scan, *target.scan, CR::parameters::minimum_extent(f1).maximum_extent(f2));
   const double search_seconds = seconds_since(start);
   const bool has_motion = result.status() != CR::NOT_REGISTERED;
 

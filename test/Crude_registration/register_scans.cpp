@@ -13,6 +13,9 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
 #ifdef CGAL_USE_OPENMESH
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <CGAL/boost/graph/graph_traits_PolyMesh_ArrayKernelT.h>
@@ -265,33 +268,54 @@ BOOST_AUTO_TEST_CASE(swapped_scans_give_the_inverse)
   }
 }
 
+namespace {
+
+void check_same_bits(const Result& first, const Result& second)
+{
+  BOOST_TEST(first.status() == second.status());
+  BOOST_TEST(first.reason() == second.reason());
+  for (const auto transformation : {&Result::transformation, &Result::crude_transformation}) {
+    const Rigid_motion m = to_rigid_motion((first.*transformation)()), n = to_rigid_motion((second.*transformation)());
+    BOOST_TEST((m.rotation == n.rotation));
+    BOOST_TEST((m.translation == n.translation));
+  }
+  BOOST_TEST(first.confidence() == second.confidence());
+  BOOST_TEST(first.score() == second.score());
+  BOOST_TEST(first.overlap() == second.overlap());
+  BOOST_TEST(first.residual() == second.residual());
+  BOOST_TEST((first.covariance() == second.covariance()));
+  BOOST_TEST_REQUIRE(first.runners_up().size() == second.runners_up().size());
+  for (std::size_t i = 0; i < first.runners_up().size(); ++i)
+    BOOST_TEST(first.runners_up()[i].score == second.runners_up()[i].score);
+  BOOST_TEST_REQUIRE(first.statistics().size() == second.statistics().size());
+  for (std::size_t i = 0; i < first.statistics().size(); ++i) {
+    BOOST_TEST(first.statistics()[i].name == second.statistics()[i].name);
+    BOOST_TEST(first.statistics()[i].count == second.statistics()[i].count);
+  }
+}
+
+} // namespace
+
 BOOST_AUTO_TEST_CASE(the_same_bits_twice)
 {
-  for (int b : {45, 180}) {
-    const Result first = CR::register_scans(view(0, 0).scan, view(0, b).scan),
-                 second = CR::register_scans(Scan(view(0, 0).image), Scan(view(0, b).image));
-    BOOST_TEST(first.status() == second.status());
-    BOOST_TEST(first.reason() == second.reason());
-    for (const auto transformation : {&Result::transformation, &Result::crude_transformation}) {
-      const Rigid_motion m = to_rigid_motion((first.*transformation)()),
-                         n = to_rigid_motion((second.*transformation)());
-      BOOST_TEST((m.rotation == n.rotation));
-      BOOST_TEST((m.translation == n.translation));
-    }
-    BOOST_TEST(first.confidence() == second.confidence());
-    BOOST_TEST(first.score() == second.score());
-    BOOST_TEST(first.overlap() == second.overlap());
-    BOOST_TEST(first.residual() == second.residual());
-    BOOST_TEST((first.covariance() == second.covariance()));
-    BOOST_TEST_REQUIRE(first.runners_up().size() == second.runners_up().size());
-    for (std::size_t i = 0; i < first.runners_up().size(); ++i)
-      BOOST_TEST(first.runners_up()[i].score == second.runners_up()[i].score);
-    BOOST_TEST_REQUIRE(first.statistics().size() == second.statistics().size());
-    for (std::size_t i = 0; i < first.statistics().size(); ++i) {
-      BOOST_TEST(first.statistics()[i].name == second.statistics()[i].name);
-      BOOST_TEST(first.statistics()[i].count == second.statistics()[i].count);
+  for (int b : {45, 180})
+    check_same_bits(CR::register_scans(view(0, 0).scan, view(0, b).scan),
+                    CR::register_scans(Scan(view(0, 0).image), Scan(view(0, b).image)));
+}
+
+BOOST_AUTO_TEST_CASE(the_same_bits_by_several_threads)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  for (int b : {45, 90, 180}) {
+    const Result alone = CR::register_scans(view(0, 0).scan, view(0, b).scan);
+    for (std::size_t threads : {2, 5}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      check_same_bits(alone, CR::register_scans<CGAL::Parallel_tag>(view(0, 0).scan, view(0, b).scan));
     }
   }
+#else
+  std::cout << "TBB: not tested, it was not found\n";
+#endif
 }
 
 BOOST_AUTO_TEST_CASE(frames_do_not_matter)

@@ -250,7 +250,7 @@ BOOST_AUTO_TEST_CASE(entries_hold_the_curvatures_in_their_order)
       for (; from != to; ++from) {
         ++entries;
         const Surfel &a = surfels[from->first], &b = surfels[from->second];
-        BOOST_TEST(from->curvatures.agrees(Pair_curvatures(a, b), 0));
+        BOOST_TEST(from->curvatures.agrees(Pair_curvatures::of(a, b), 0));
       }
     });
   BOOST_TEST(entries > 100u);
@@ -260,7 +260,7 @@ BOOST_AUTO_TEST_CASE(agreement_of_curvatures)
 {
   const Vector o(0, 0, 0), z(0, 0, 1);
   const auto of = [&](float k1, float k2, float l1, float l2) {
-    return Pair_curvatures(surfel(o, z, k1, k2), surfel(o, z, l1, l2));
+    return Pair_curvatures::of(surfel(o, z, k1, k2), surfel(o, z, l1, l2));
   };
   const Pair_curvatures c = of(-0.5f, 0.25f, 0, 0.75f);
   BOOST_TEST(c.agrees(c, 0));

@@ -72,6 +72,8 @@ Registration_result<Kernel> to_result(const Registration_outcome& outcome)
 \brief registers two prepared scans: finds the rigid motion that maps the source into the frame of the target, with no
 knowledge of how they lie, and says whether it is to be believed.
 
+\tparam ConcurrencyTag `CGAL::Sequential_tag` (default), `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`; the
+        answer is the same, bit by bit, with any number of threads
 \param source, target the scans; their sensors, where known, are part of them
 \param np optional named parameters: `minimum_extent` and `maximum_extent`, \f$ f_1 \f$ and \f$ f_2 \f$ of the
        paper, as shares of the scan's size \f$ M \f$: the least and greatest length of the axes of trihedra (0 and 1
@@ -86,7 +88,8 @@ knowledge of how they lie, and says whether it is to be believed.
 The result depends on nothing but the two scans. Complexity: bounded by the number of looks of the last round of the
 search, whatever the size of the scans.
 */
-template <class Kernel, class NamedParameters = parameters::Default_named_parameters>
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Kernel,
+          class NamedParameters = parameters::Default_named_parameters>
 Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
                                            const NamedParameters& np = parameters::default_values())
 {
@@ -95,8 +98,8 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
   const double f2 =
       internal::non_negative_parameter(np, internal_np::maximum_extent, 1, "register_scans", "maximum_extent");
   if (!(f1 < f2)) throw std::invalid_argument("register_scans: minimum_extent has to be less than maximum_extent");
-  return internal::to_result<Kernel>(
-      internal::register_prepared_scans(source.prepared(), target.prepared(), internal::parameters_within(f1, f2)));
+  return internal::to_result<Kernel>(internal::register_prepared_scans<ConcurrencyTag>(
+      source.prepared(), target.prepared(), internal::parameters_within(f1, f2)));
 }
 
 /*!
@@ -104,6 +107,7 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
 
 \brief registers two triangle meshes: `register_scans()` of the two as `Scan`s.
 
+\tparam ConcurrencyTag see `register_scans()`
 \tparam Source, Target models of `FaceListGraph`, not necessarily the same
 \param source, target the meshes, faces counterclockwise seen from outside (from the sensor)
 \param np_source named parameters for the source (see `Scan`: `vertex_point_map`, `viewpoint`, `viewing_direction`;
@@ -112,7 +116,8 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
 
 \throws std::invalid_argument as `Scan` and `register_scans()` do; the text names the argument.
 */
-template <class Source, class Target, class Source_parameters = parameters::Default_named_parameters,
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Source, class Target,
+          class Source_parameters = parameters::Default_named_parameters,
           class Target_parameters = parameters::Default_named_parameters>
 auto register_meshes(const Source& source, const Target& target,
                      const Source_parameters& np_source = parameters::default_values(),
@@ -125,7 +130,7 @@ auto register_meshes(const Source& source, const Target& target,
       std::remove_reference_t<decltype(internal::parameter(np_source, internal_np::geom_traits, Default_kernel()))>>;
   const Scan<Kernel> prepared_source(source, np_source, "register_meshes: source");
   const Scan<Kernel> prepared_target(target, np_target, "register_meshes: target");
-  return register_scans(prepared_source, prepared_target, np_source);
+  return register_scans<ConcurrencyTag>(prepared_source, prepared_target, np_source);
 }
 
 } // namespace Crude_registration

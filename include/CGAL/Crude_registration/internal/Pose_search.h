@@ -10,9 +10,9 @@
 
 #include <CGAL/Crude_registration/internal/Prepared_scan.h>
 #include <CGAL/Crude_registration/internal/Surfel_pair_index.h>
+#include <CGAL/Crude_registration/internal/for_each_index.h>
 
 #include <array>
-#include <numeric>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -33,24 +33,6 @@ struct Pose
     return i;
   }
 };
-
-// Fixed mixing of numbers (splitmix64): the search's only source of choice, the same everywhere.
-inline std::uint64_t mixed(std::uint64_t x)
-{
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
-// 0 .. n-1 in a fixed order without pattern.
-inline std::vector<std::int32_t> shuffled(std::size_t n, std::uint64_t seed)
-{
-  std::vector<std::int32_t> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[mixed(seed + i) % i]);
-  return order;
-}
 
 // One step of point-to-plane least squares (Chen and Medioni 1991) of some surfels of the source against the target's
 // nearest ones. Returns the number of correspondences; the pose is left as it is where they are fewer than six.
@@ -153,21 +135,6 @@ Agreement agreement(const Prepared_scan& source, const Surfel_level& source_leve
   return a;
 }
 
-// What a search tells on its way: every candidate at the stages it reaches. For measurements.
-struct No_observer
-{
-  enum Stage
-  {
-    HIT,
-    CHECKED,
-    SUPPORTED,
-    SCORED,
-    KEPT,
-    REFINED
-  };
-  void operator()(Stage, const Pose&) {}
-};
-
 struct Candidate
 {
   Pose pose;
@@ -181,16 +148,16 @@ struct Search_round
   int origins;               // vertices V of the source
   int pairs;                 // vertices v1 for each of them and each scale
   std::size_t looks;         // at most that many pairs (C, c1) of the target are looked at
-  int curvature_tolerance;   // in 1/128 of the inverse spacing
+  int curvature_tolerance;   // in 1/128 of the inverse spacing, for scans without noise
   std::size_t kept;          // distinct candidates that are refined
   std::size_t judged;        // those of them that are looked at closely
 };
 
 struct Search_parameters
 {
-  std::vector<Search_round> rounds = {{{0.16f}, 300, 5, 80000, 14, 60, 8},
-                                      {{0.16f, 0.1f}, 800, 5, 500000, 14, 200, 12},
-                                      {{0.25f, 0.16f, 0.1f, 0.06f}, 2000, 5, 4000000, 20, 400, 24}};
+  std::vector<Search_round> rounds = {{{0.16f}, 300, 5, 80000, 14, 24, 5},
+                                      {{0.16f, 0.1f}, 800, 5, 300000, 14, 100, 8},
+                                      {{0.25f, 0.16f, 0.1f, 0.06f}, 2000, 5, 4000000, 14, 400, 24}};
   float source_half_width = 0.3f; // of the lengths, in spacings
   float target_half_width = 0.7f;
   float distance = 0.8f; // of a witness to the plane of its counterpart, in spacings
@@ -218,18 +185,21 @@ struct Judged_pose
 // the turn on the circle, which the normals give); v2 and v3, on either side of the line, have to find a counterpart
 // where the motion takes them (the fourth vertex), and so have most of some further witnesses around. What is left is
 // scored on the whole scan, with free space, and the best distinct motions are refined and judged.
-template <class Observer = No_observer>
+template <class ConcurrencyTag = CGAL::Sequential_tag>
 class Pose_search
 {
 public:
-  Pose_search(const Prepared_scan& source, const Prepared_scan& target, const Search_parameters& parameters = {},
-              Observer observer = Observer())
-      : m_source(source), m_target(target), m_parameters(parameters), m_observer(observer)
+  Pose_search(const Prepared_scan& source, const Prepared_scan& target, const Search_parameters& parameters = {})
+      : m_source(source), m_target(target), m_parameters(parameters)
   {
     m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
     m_extent = float((std::min)(source.extent, target.extent));
     // About the noise of the worst tenth of surfels; a floor, as sampling leaves something even of scans without noise.
     m_coarse_tolerance = tolerance(source.coarse, target.coarse, 2.7f, 1.75f);
+    // Normals of surfels side by side on smooth bodies differ by up to 0.33.
+    const float turn = (std::max)(source.coarse.normal_noise, target.coarse.normal_noise);
+    const float noise = (std::max)(turn / 0.33f, 1.f);
+    m_curvature_noise = (std::min)(noise * std::sqrt(noise), 1.8f);
     m_fine_tolerance = tolerance(source.fine, target.fine, 4.3f, 2.4f);
     std::vector<Vector> points;
     points.reserve(source.coarse.surfels.size());
@@ -237,10 +207,8 @@ public:
     m_grid = Point_grid(points, double(2 * m_spacing));
     for (const std::int32_t v : shuffled(source.coarse.surfels.size(), 1))
       if (!source.coarse.borders[std::size_t(v)]) m_origins.push_back(v);
-    m_source_probes = probes(source.coarse, 600);
-    m_target_probes = probes(target.coarse, 200);
-    m_fine_source_probes = probes(source.fine, 2500);
-    m_fine_target_probes = probes(target.fine, 2500);
+    m_fine_source_probes = first(source.fine.probes, 2500);
+    m_fine_target_probes = first(target.fine.probes, 2500);
   }
 
   // The distinct poses, best first, once one of them is certain or all rounds are done.
@@ -249,16 +217,17 @@ public:
   {
     std::vector<Judged_pose> judged;
     for (const Search_round& round : m_parameters.rounds) {
-      for (const Candidate& c : refined(next_round(round), round.judged)) add_distinct(judge(c.pose), judged);
+      const std::vector<Candidate> best = refined(next_round(round), round.judged);
+      std::vector<Judged_pose> poses(best.size());
+      for_each_index<ConcurrencyTag>(best.size(), [&](std::size_t i) { poses[i] = judge(best[i].pose); });
+      m_counts.judged += poses.size();
+      for (const Judged_pose& p : poses) add_distinct(p, judged);
       if (is_certain(judged)) break;
     }
     return judged;
   }
 
   const Search_counts& counts() const { return m_counts; }
-
-  // Surfels of the source for the final refinement.
-  std::vector<std::int32_t> fine_source_probes(std::size_t n) const { return probes(m_source.fine, n); }
 
   // Twice what any wrong pose was seen to reach, and far ahead of every other pose.
   static bool is_certain(const std::vector<Judged_pose>& judged)
@@ -270,26 +239,18 @@ public:
   // The distinct candidates of the next round, best first.
   std::vector<Candidate> next_round(const Search_round& round)
   {
-    std::vector<Candidate> candidates;
-    const std::vector<Source_pair> pairs = choose_pairs(round);
-    std::vector<std::size_t> looks(round.scales.size(), round.looks / round.scales.size());
-    for (const Source_pair& p : pairs) {
-      if (looks[p.scale] < p.count) continue;
-      if (candidates.size() > most_candidates) break;
-      looks[p.scale] -= p.count;
-      match(p, round, candidates);
-    }
+    std::vector<Candidate> candidates = match(choose_pairs(round), round);
     m_counts.candidates += candidates.size();
-    best_by_score(candidates, 40, round.kept * 8);
-    for (const Candidate& c : candidates) m_observer(No_observer::SCORED, c.pose);
-    best_by_score(candidates, 200, candidates.size());
+    // More probes for fewer candidates: most are told to be wrong by the first few.
+    narrow(candidates, 12, (std::max)(16 * round.kept, candidates.size() / 8));
+    narrow(candidates, 40, 8 * round.kept);
+    score(candidates, 200);
     std::vector<Candidate> kept;
     for (const Candidate& c : candidates) {
       if (kept.size() == round.kept) break;
       if (std::none_of(kept.begin(), kept.end(), [&](const Candidate& k) { return are_close(c.pose, k.pose); }))
         kept.push_back(c);
     }
-    for (const Candidate& c : kept) m_observer(No_observer::KEPT, c.pose);
     return kept;
   }
 
@@ -297,16 +258,18 @@ public:
   std::vector<Candidate> refined(std::vector<Candidate> candidates, std::size_t number)
   {
     m_counts.refined += candidates.size();
+    const std::vector<std::int32_t> target_indices = first(m_target.coarse.probes, 200);
     const auto refine = [&](std::size_t probes, std::initializer_list<float> reaches) {
-      const auto indices = first(m_source_probes, probes);
-      for (Candidate& c : candidates) {
+      const std::vector<std::int32_t> indices = first(m_source.coarse.probes, probes);
+      for_each_index<ConcurrencyTag>(candidates.size(), [&](std::size_t i) {
+        Candidate& c = candidates[i];
         for (float reach : reaches)
           if (refine_step(m_source.coarse, indices, m_target.coarse, {reach * m_spacing, 0.7f}, c.pose) < 6) break;
         const Agreement a =
-            agreement(m_source, m_source.coarse, indices, m_target, m_target.coarse, m_target_probes, c.pose,
+            agreement(m_source, m_source.coarse, indices, m_target, m_target.coarse, target_indices, c.pose,
                       m_coarse_tolerance.distance, m_coarse_tolerance.minimal_cosine, 1.2f * m_spacing);
         c.score = a.overlap - 1.5f * a.violations;
-      }
+      });
       sort_by_score(candidates);
     };
     refine(200, {1.5f, 1.5f, 1.f});
@@ -318,14 +281,12 @@ public:
       if (std::none_of(best.begin(), best.end(), [&](const Candidate& k) { return are_close(c.pose, k.pose); }))
         best.push_back(c);
     }
-    for (const Candidate& c : best) m_observer(No_observer::REFINED, c.pose);
     return best;
   }
 
   // A pose after refinement on the fine surfels.
-  Judged_pose judge(Pose pose)
+  Judged_pose judge(Pose pose) const
   {
-    ++m_counts.judged;
     const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
     for (float reach : {2.f, 2.f, 2.f, 1.25f, 1.25f, 0.75f})
       if (refine_step(m_source.fine, m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
@@ -367,30 +328,6 @@ private:
             std::cos((std::min)((std::max)(turn, 0.2f), 0.7f))};
   }
 
-  // Surfels that stand for the whole scan, in an order such that each beginning does: by turns from each direction of
-  // the normal (Rusinkiewicz and Levoy 2001, normal-space sampling), so that a wall or a floor, whatever its size, does
-  // not outvote all else.
-  static std::vector<std::int32_t> probes(const Surfel_level& level, std::size_t n)
-  {
-    constexpr int side = 5; // cells along the edge of a cube's face
-    std::vector<std::vector<std::int32_t>> bins(6 * side * side);
-    for (const std::int32_t i : shuffled(level.surfels.size(), 2)) {
-      const Vector_f& normal = level.surfels[std::size_t(i)].normal;
-      int axis;
-      const float largest = normal.cwiseAbs().maxCoeff(&axis);
-      const auto cell = [&](float x) { return (std::min)(int((x / largest + 1) * 0.5f * side), side - 1); };
-      const int face = 2 * axis + (normal[axis] < 0);
-      bins[std::size_t((face * side + cell(normal[(axis + 1) % 3])) * side + cell(normal[(axis + 2) % 3]))].push_back(
-          i);
-    }
-    std::vector<std::int32_t> order;
-    n = (std::min)(n, level.surfels.size());
-    for (std::size_t turn = 0; order.size() < n; ++turn)
-      for (const auto& bin : bins)
-        if (turn < bin.size() && order.size() < n) order.push_back(bin[turn]);
-    return order;
-  }
-
   static std::vector<std::int32_t> first(std::vector<std::int32_t> indices, std::size_t n)
   {
     if (indices.size() > n) indices.resize(n);
@@ -403,13 +340,22 @@ private:
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   }
 
-  const Surfel_pair_index& index_of_scale(float scale)
+  void index_scales(const std::vector<float>& scales)
   {
-    for (const auto& i : m_indices)
-      if (i.first == scale) return i.second;
-    m_indices.emplace_back(scale, Surfel_pair_index(m_target.coarse.surfels, scale * m_extent,
-                                                    m_parameters.target_half_width * m_spacing));
-    return m_indices.back().second;
+    const std::size_t old = m_indices.size();
+    for (const float scale : scales)
+      if (std::none_of(m_indices.begin(), m_indices.end(), [&](const auto& i) { return i.first == scale; }))
+        m_indices.emplace_back(scale, Surfel_pair_index());
+    for_each_index<ConcurrencyTag>(m_indices.size() - old, [&](std::size_t i) {
+      auto& [scale, index] = m_indices[old + i];
+      index = Surfel_pair_index(m_target.coarse.surfels, scale * m_extent, m_parameters.target_half_width * m_spacing);
+    });
+  }
+
+  // \pre `scale` is indexed
+  const Surfel_pair_index& index_of_scale(float scale) const
+  {
+    return std::find_if(m_indices.begin(), m_indices.end(), [&](const auto& i) { return i.first == scale; })->second;
   }
 
   // Poses that refinement will most likely make one: within some spacings and degrees.
@@ -434,18 +380,27 @@ private:
                   pose);
   }
 
-  // Scores the candidates by that many probes of either scan and leaves the best, best first.
-  void best_by_score(std::vector<Candidate>& candidates, std::size_t probes, std::size_t left) const
+  // Leaves the best, by the score of that many probes.
+  void narrow(std::vector<Candidate>& candidates, std::size_t probes, std::size_t left) const
   {
-    const auto source_probes = first(m_source_probes, probes), target_probes = first(m_target_probes, probes);
-    for (Candidate& c : candidates) {
+    if (candidates.size() <= left) return;
+    score(candidates, probes);
+    candidates.resize(left);
+  }
+
+  // Scores the candidates by that many probes of either scan; the best come first.
+  void score(std::vector<Candidate>& candidates, std::size_t probes) const
+  {
+    const auto source_probes = first(m_source.coarse.probes, probes),
+               target_probes = first(m_target.coarse.probes, probes);
+    for_each_index<ConcurrencyTag>(candidates.size(), [&](std::size_t i) {
+      Candidate& c = candidates[i];
       const Agreement a =
           agreement(m_source, m_source.coarse, source_probes, m_target, m_target.coarse, target_probes, c.pose,
                     m_parameters.distance * m_spacing, m_parameters.minimal_cosine, 1.2f * m_spacing);
       c.score = a.overlap - 1.5f * a.violations;
-    }
+    });
     sort_by_score(candidates);
-    if (candidates.size() > left) candidates.resize(left);
   }
 
   // Pairs (V, v1) of the source for the next origins, the rarest in the target first: they say the most for each look.
@@ -455,7 +410,7 @@ private:
     std::vector<std::vector<std::int32_t>> shells(round.scales.size());
     const float width = m_parameters.source_half_width * m_spacing;
     const float longest = round.scales.front() * m_extent + width;
-    for (float s : round.scales) index_of_scale(s);
+    index_scales(round.scales);
     for (int o = 0; o < round.origins && m_next_origin < m_origins.size(); ++o, ++m_next_origin) {
       const std::int32_t v = m_origins[m_next_origin];
       const Surfel& origin = m_source.coarse.surfels[std::size_t(v)];
@@ -531,47 +486,77 @@ private:
     return true;
   }
 
-  void match(const Source_pair& p, const Search_round& round, std::vector<Candidate>& candidates)
+  // What a pair of the source matches.
+  struct Matches
   {
+    std::size_t looks = 0, hits = 0;
+    std::vector<Candidate> candidates;
+  };
+
+  // The candidates of the pairs, in their order, as far as the round's number of looks goes.
+  std::vector<Candidate> match(const std::vector<Source_pair>& pairs, const Search_round& round)
+  {
+    std::vector<std::size_t> looks(round.scales.size(), round.looks / round.scales.size());
+    std::vector<const Source_pair*> chosen;
+    for (const Source_pair& p : pairs) {
+      if (looks[p.scale] < p.count) continue;
+      looks[p.scale] -= p.count;
+      chosen.push_back(&p);
+    }
+    // In blocks of the same size whatever the number of threads.
+    constexpr std::size_t block = 128;
+    std::vector<Candidate> candidates;
+    for (std::size_t from = 0; from < chosen.size() && candidates.size() <= most_candidates; from += block) {
+      std::vector<Matches> found((std::min)(block, chosen.size() - from));
+      for_each_index<ConcurrencyTag>(found.size(), [&](std::size_t i) { found[i] = match(*chosen[from + i], round); });
+      for (const Matches& m : found) {
+        m_counts.looks += m.looks;
+        m_counts.hits += m.hits;
+        candidates.insert(candidates.end(), m.candidates.begin(), m.candidates.end());
+      }
+    }
+    return candidates;
+  }
+
+  Matches match(const Source_pair& p, const Search_round& round) const
+  {
+    Matches matches;
     std::vector<Surfel> witnesses;
-    if (!choose_witnesses(p, witnesses)) return;
+    if (!choose_witnesses(p, witnesses)) return matches;
     const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
                  &b = m_source.coarse.surfels[std::size_t(p.second)];
     const Vector_f middle = 0.5f * (a.position + b.position);
     const Matrix_f source_frame = pair_frame(a, b).transpose();
-    const Pair_curvatures curvatures(a, b);
+    const Pair_curvatures curvatures = Pair_curvatures::of(a, b);
+    const int tolerance = int(float(round.curvature_tolerance) * m_curvature_noise);
     const auto look = [&](const Surfel_pair_index::Entry* from, const Surfel_pair_index::Entry* to) {
-      m_counts.looks += std::size_t(to - from);
+      matches.looks += std::size_t(to - from);
       for (const auto* e = from; e != to; ++e) {
-        if (!curvatures.agrees(e->curvatures, round.curvature_tolerance)) continue;
+        if (!curvatures.agrees(e->curvatures, tolerance)) continue;
         const Surfel &c = m_target.coarse.surfels[e->first], &c1 = m_target.coarse.surfels[e->second];
         Pose pose;
         pose.rotation = pair_frame(c, c1) * source_frame;
         pose.translation = 0.5f * (c.position + c1.position) - pose.rotation * middle;
-        ++m_counts.hits;
-        m_observer(No_observer::HIT, pose);
+        ++matches.hits;
         if (!has_counterpart(witnesses[0], pose) || !has_counterpart(witnesses[1], pose)) continue;
-        m_observer(No_observer::CHECKED, pose);
         int support = 2;
         const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
         for (int w = 2; w < n && support + n - w >= needed; ++w)
           support += has_counterpart(witnesses[std::size_t(w)], pose);
-        if (support < needed) continue;
-        m_observer(No_observer::SUPPORTED, pose);
-        candidates.push_back({pose, 0});
+        if (support >= needed) matches.candidates.push_back({pose, 0});
       }
     };
     index_of_scale(round.scales[p.scale]).for_each_run(p.angles, look);
+    return matches;
   }
 
   const Prepared_scan& m_source;
   const Prepared_scan& m_target;
   const Search_parameters m_parameters;
-  Observer m_observer;
-  float m_spacing = 0, m_extent = 0;
+  float m_spacing = 0, m_extent = 0, m_curvature_noise = 1;
   Tolerance m_coarse_tolerance, m_fine_tolerance;
   Point_grid m_grid;
-  std::vector<std::int32_t> m_origins, m_source_probes, m_target_probes, m_fine_source_probes, m_fine_target_probes;
+  std::vector<std::int32_t> m_origins, m_fine_source_probes, m_fine_target_probes;
   std::vector<std::pair<float, Surfel_pair_index>> m_indices;
   std::size_t m_next_origin = 0;
   Search_counts m_counts;

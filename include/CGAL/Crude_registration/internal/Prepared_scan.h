@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct Surfel_level
   std::vector<Surfel> surfels;
   std::vector<std::uint8_t> borders; // 1 where the surfels around do not surround it
   std::vector<float> weights;        // number of samples
+  std::vector<std::int32_t> probes;  // surfels that stand for all, in an order such that each beginning does
   Surfel_field field;
   // How well the plane of one surfel tells the next one: three quarters of the neighbours are off by less. What noise
   // and curvature leave of a comparison of two scans at this resolution.
@@ -154,6 +156,47 @@ inline void describe_surfels(Surfel_level& level)
     s.minimal_curvature = (middle - half) * level.spacing;
     s.maximal_curvature = (middle + half) * level.spacing;
   }
+}
+
+// Fixed mixing of numbers (splitmix64): the search's only source of choice, the same everywhere.
+inline std::uint64_t mixed(std::uint64_t x)
+{
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// 0 .. n-1 in a fixed order without pattern.
+inline std::vector<std::int32_t> shuffled(std::size_t n, std::uint64_t seed)
+{
+  std::vector<std::int32_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[mixed(seed + i) % i]);
+  return order;
+}
+
+// Surfels that stand for the whole scan, in an order such that each beginning does: by turns from each direction of the
+// normal (Rusinkiewicz and Levoy 2001, normal-space sampling), so that a wall or a floor, whatever its size, does not
+// outvote all else.
+inline std::vector<std::int32_t> choose_probes(const std::vector<Surfel>& surfels, std::size_t n)
+{
+  constexpr int side = 5; // cells along the edge of a cube's face
+  std::vector<std::vector<std::int32_t>> bins(6 * side * side);
+  for (const std::int32_t i : shuffled(surfels.size(), 2)) {
+    const Vector_f& normal = surfels[std::size_t(i)].normal;
+    int axis;
+    const float largest = normal.cwiseAbs().maxCoeff(&axis);
+    const auto cell = [&](float x) { return (std::min)(int((x / largest + 1) * 0.5f * side), side - 1); };
+    const int face = 2 * axis + (normal[axis] < 0);
+    bins[std::size_t((face * side + cell(normal[(axis + 1) % 3])) * side + cell(normal[(axis + 2) % 3]))].push_back(i);
+  }
+  std::vector<std::int32_t> order;
+  n = (std::min)(n, surfels.size());
+  for (std::size_t turn = 0; order.size() < n; ++turn)
+    for (const auto& bin : bins)
+      if (turn < bin.size() && order.size() < n) order.push_back(bin[turn]);
+  return order;
 }
 
 // Measures the noise of a level on some hundred surfels and their neighbours, which the field finds.
@@ -322,6 +365,8 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
   describe_surfels(scan.coarse);
   scan.fine.field = Surfel_field(scan.fine.surfels, scan.fine.spacing, 1.6f * scan.fine.spacing);
   scan.coarse.field = Surfel_field(scan.coarse.surfels, 0.7f * scan.coarse.spacing, 2.f * scan.coarse.spacing);
+  scan.fine.probes = choose_probes(scan.fine.surfels, 4000);
+  scan.coarse.probes = choose_probes(scan.coarse.surfels, 600);
   measure_noise(scan.fine);
   measure_noise(scan.coarse);
 

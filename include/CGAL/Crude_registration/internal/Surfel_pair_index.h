@@ -10,10 +10,11 @@
 
 #include <CGAL/Crude_registration/internal/Surfel_field.h>
 #include <CGAL/Crude_registration/internal/Point_grid.h>
+#include <CGAL/Crude_registration/internal/fast_angles.h>
 
 #include <Eigen/Geometry>
 
-#include <cstring>
+#include <array>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -27,18 +28,20 @@ struct Pair_angles
   float first, second, turn; // radians: [0, pi], [0, pi], [-pi, pi]
 };
 
-// False where a normal is so close to the line that the turn means nothing.
+// False where a normal is so close to the line that the turn means nothing, or there is no line.
 inline bool pair_angles(const Surfel& a, const Surfel& b, Pair_angles& angles)
 {
   Vector_f d = b.position - a.position;
-  d /= d.norm();
+  const float length = d.norm();
+  if (!(length > 0)) return false;
+  d /= length;
   const float ca = a.normal.dot(d), cb = b.normal.dot(d);
   constexpr float most = 0.98f;
   if (!(std::abs(ca) < most && std::abs(cb) < most)) return false;
   const Vector_f x = a.normal - ca * d, y = b.normal - cb * d;
-  angles.first = std::acos(ca);
-  angles.second = std::acos(cb);
-  angles.turn = std::atan2(d.dot(x.cross(y)), x.dot(y));
+  angles.first = float(fast_acos(double(ca)));
+  angles.second = float(fast_acos(double(cb)));
+  angles.turn = float(fast_atan2(double(d.dot(x.cross(y))), double(x.dot(y))));
   return true;
 }
 
@@ -66,20 +69,20 @@ inline Matrix_f pair_frame(const Surfel& a, const Surfel& b)
 // The curvatures of a pair, in bytes; agreement is a difference of at most a tolerance in each.
 struct Pair_curvatures
 {
-  std::uint8_t values[4];
+  std::array<std::uint8_t, 4> values;
 
   static std::uint8_t quantise(float k) { return std::uint8_t((std::min)((std::max)(k * 128 + 128.5f, 0.f), 255.f)); }
 
-  Pair_curvatures(const Surfel& a, const Surfel& b)
-      : values{quantise(a.minimal_curvature), quantise(a.maximal_curvature), quantise(b.minimal_curvature),
-               quantise(b.maximal_curvature)}
-  {}
-  Pair_curvatures() = default;
+  static Pair_curvatures of(const Surfel& a, const Surfel& b)
+  {
+    return {{quantise(a.minimal_curvature), quantise(a.maximal_curvature), quantise(b.minimal_curvature),
+             quantise(b.maximal_curvature)}};
+  }
 
   bool agrees(const Pair_curvatures& o, int tolerance) const
   {
     int worst = 0;
-    for (int i = 0; i < 4; ++i) worst = (std::max)(worst, std::abs(int(values[i]) - int(o.values[i])));
+    for (std::size_t i = 0; i < 4; ++i) worst = (std::max)(worst, std::abs(int(values[i]) - int(o.values[i])));
     return worst <= tolerance;
   }
 };
@@ -101,8 +104,14 @@ public:
   Surfel_pair_index(const std::vector<Surfel>& surfels, float length, float half_width)
   {
     std::vector<Vector> points;
+    std::vector<std::array<std::uint8_t, 2>> curvatures;
     points.reserve(surfels.size());
-    for (const Surfel& s : surfels) points.push_back(s.position.cast<double>());
+    curvatures.reserve(surfels.size());
+    for (const Surfel& s : surfels) {
+      points.push_back(s.position.cast<double>());
+      curvatures.push_back(
+          {Pair_curvatures::quantise(s.minimal_curvature), Pair_curvatures::quantise(s.maximal_curvature)});
+    }
     const Point_grid grid(points, double(length + half_width) / 2);
     const double least = double(length - half_width) * double(length - half_width);
     struct Item
@@ -119,8 +128,8 @@ public:
         const auto add = [&](std::size_t from, std::size_t to, const Pair_angles& angles) {
           const std::size_t b = bin(angles);
           ++m_offsets[b + 1];
-          items.push_back({{Pair_curvatures(surfels[from], surfels[to]), std::uint16_t(from), std::uint16_t(to)},
-                           std::uint16_t(b)});
+          const auto &k = curvatures[from], &l = curvatures[to];
+          items.push_back({{{{k[0], k[1], l[0], l[1]}}, std::uint16_t(from), std::uint16_t(to)}, std::uint16_t(b)});
         };
         add(i, std::size_t(j), a);
         // Seen from the other end the angles are supplements and the turn is the same.

@@ -8,10 +8,9 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_TRIHEDRON_SEARCH_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_TRIHEDRON_SEARCH_H
 
+#include <CGAL/Crude_registration/internal/for_each_index.h>
 #include <CGAL/Crude_registration/internal/Motion_evaluation.h>
 #include <CGAL/Crude_registration/match_trihedra.h>
-
-#include <CGAL/for_each.h>
 
 #include <algorithm>
 #include <array>
@@ -198,7 +197,7 @@ private:
          from += m_parameters.refined_at_once) {
       std::vector<Rigid_motion> refined((std::min)(m_parameters.refined_at_once, crude.size() - from));
       std::vector<double> scores(refined.size(), -(std::numeric_limits<double>::max)());
-      for_each_index(refined.size(), [&](std::size_t i) {
+      for_each_index<ConcurrencyTag>(refined.size(), [&](std::size_t i) {
         refined[i] = m_evaluation.refined(crude[from + i].motion);
         // What ends elsewhere is no crude registration of where it ends.
         if (m_evaluation.distance(refined[i], crude[from + i].motion) < spacing())
@@ -237,7 +236,7 @@ private:
     };
     std::vector<Slot> slots((trihedra.size() + chunk - 1) / chunk);
     Best_scores best_scores(m_parameters.kept, m_parameters.coarse_probes);
-    for_each_index(slots.size(), [&](std::size_t k) {
+    for_each_index<ConcurrencyTag>(slots.size(), [&](std::size_t k) {
       Trihedron_matching::Workspace work;
       std::vector<Scored_candidate> found;
       for (std::size_t t = k * chunk; t < (std::min)((k + 1) * chunk, trihedra.size()); ++t) {
@@ -271,7 +270,7 @@ private:
     constexpr auto all = std::size_t(-1);
     const auto look = [&](std::size_t number, std::size_t probes) {
       keep_best(candidates, number);
-      for_each_index(candidates.size(), [&](std::size_t i) {
+      for_each_index<ConcurrencyTag>(candidates.size(), [&](std::size_t i) {
         candidates[i].score = m_evaluation.coarse_score(candidates[i].candidate.motion, probes).value();
       });
     };
@@ -286,7 +285,7 @@ private:
       if (is_distinct(m, crude, spacing(), [](const Crude_motion& r) { return r.trihedron_motion; }))
         crude.push_back({m, m, 0});
     }
-    for_each_index(crude.size(), [&](std::size_t i) {
+    for_each_index<ConcurrencyTag>(crude.size(), [&](std::size_t i) {
       crude[i].motion = m_evaluation.reestimated(crude[i].trihedron_motion);
       crude[i].score = m_evaluation.coarse_score(crude[i].motion, all).value();
     });
@@ -313,17 +312,6 @@ private:
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     if (candidates.size() > count) candidates.resize(count);
-  }
-
-  template <class Function>
-  static void for_each_index(std::size_t n, const Function& f)
-  {
-    std::vector<std::size_t> indices(n);
-    std::iota(indices.begin(), indices.end(), std::size_t(0));
-    CGAL::for_each<ConcurrencyTag>(indices, [&](std::size_t& i) {
-      f(i);
-      return true;
-    });
   }
 
   const Prepared_scan& m_source;

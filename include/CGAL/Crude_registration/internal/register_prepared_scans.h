@@ -236,8 +236,9 @@ std::vector<Vector_6> free_motions(const Search& search, const Rigid_motion& mot
 }
 
 // a and b are source and target.
-inline Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepared_scan& b,
-                                                    const Search_parameters& parameters = {})
+template <class ConcurrencyTag = CGAL::Sequential_tag>
+Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepared_scan& b,
+                                             const Search_parameters& parameters = {})
 {
   Registration_outcome outcome;
   outcome.is_swapped = are_swapped(a, b);
@@ -251,14 +252,14 @@ inline Registration_outcome register_prepared_scans(const Prepared_scan& a, cons
     return outcome;
   }
   const auto start = std::chrono::steady_clock::now();
-  Pose_search<> search(source, target, parameters);
+  Pose_search<ConcurrencyTag> search(source, target, parameters);
   outcome.poses = search();
   outcome.counts = search.counts();
   const auto middle = std::chrono::steady_clock::now();
   outcome.search_seconds = std::chrono::duration<double>(middle - start).count();
   if (!outcome.poses.empty()) {
     std::vector<Vector> points, normals;
-    for (const std::int32_t i : search.fine_source_probes(4000)) {
+    for (const std::int32_t i : source.fine.probes) {
       const Surfel& s = source.fine.surfels[std::size_t(i)];
       points.push_back(s.position.cast<double>());
       normals.push_back(s.normal.cast<double>());
@@ -268,7 +269,7 @@ inline Registration_outcome register_prepared_scans(const Prepared_scan& a, cons
     options.sampling_distance = (std::max)(source.spacing, target.spacing);
     options.reach = 2 * options.sampling_distance;
     options.tolerance = 1e-3;
-    Point_to_plane<CGAL::Sequential_tag, Surfel_target> refine(points, normals, surface, options);
+    Point_to_plane<ConcurrencyTag, Surfel_target> refine(points, normals, surface, options);
     const Rigid_motion crude = to_rigid_motion(outcome.poses.front().pose);
     outcome.refinement = refine(crude);
     outcome.crude = outcome.to_input(crude);
