@@ -27,8 +27,9 @@ public:
   // `cell`: the edge length of a cell, for a perspective sensor at the mean range.
   Depth_buffer(Flat_sensor::Kind kind, const Vector_f& viewpoint, const Vector_f& direction,
                const std::vector<Vector_f>& samples, float cell)
-      : m_kind(samples.empty() ? Flat_sensor::UNKNOWN : kind), m_viewpoint(viewpoint)
+      : m_kind(samples.empty() ? Flat_sensor::UNKNOWN : kind)
   {
+    m_viewpoint = viewpoint;
     if (m_kind == Flat_sensor::UNKNOWN) return;
     const Vector_f u = direction.unitOrthogonal();
     m_axes.row(0) = u;

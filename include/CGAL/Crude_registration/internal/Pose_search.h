@@ -13,6 +13,7 @@
 #include <CGAL/Crude_registration/internal/for_each_index.h>
 
 #include <array>
+#include <utility>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -189,8 +190,8 @@ template <class ConcurrencyTag = CGAL::Sequential_tag>
 class Pose_search
 {
 public:
-  Pose_search(const Prepared_scan& source, const Prepared_scan& target, const Search_parameters& parameters = {})
-      : m_source(source), m_target(target), m_parameters(parameters)
+  Pose_search(const Prepared_scan& source, const Prepared_scan& target, Search_parameters parameters = {})
+      : m_source(source), m_target(target), m_parameters(std::move(parameters))
   {
     m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
     m_extent = float((std::min)(source.extent, target.extent));

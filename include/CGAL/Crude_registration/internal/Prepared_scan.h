@@ -100,7 +100,7 @@ inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std
   };
   for (std::size_t from = 0; from < items.size();) {
     Sum front, back;
-    Vector_f reference = normals[items[from].index];
+    const Vector_f& reference = normals[items[from].index];
     std::size_t to = from;
     for (; to < items.size() && items[to].key == items[from].key; ++to) {
       const std::size_t i = items[to].index;
@@ -181,15 +181,17 @@ inline std::vector<std::int32_t> shuffled(std::size_t n, std::uint64_t seed)
 // outvote all else.
 inline std::vector<std::int32_t> choose_probes(const std::vector<Surfel>& surfels, std::size_t n)
 {
-  constexpr int side = 5; // cells along the edge of a cube's face
+  constexpr std::size_t side = 5; // cells along the edge of a cube's face
   std::vector<std::vector<std::int32_t>> bins(6 * side * side);
   for (const std::int32_t i : shuffled(surfels.size(), 2)) {
     const Vector_f& normal = surfels[std::size_t(i)].normal;
     int axis;
     const float largest = normal.cwiseAbs().maxCoeff(&axis);
-    const auto cell = [&](float x) { return (std::min)(int((x / largest + 1) * 0.5f * side), side - 1); };
-    const int face = 2 * axis + (normal[axis] < 0);
-    bins[std::size_t((face * side + cell(normal[(axis + 1) % 3])) * side + cell(normal[(axis + 2) % 3]))].push_back(i);
+    const auto cell = [&](float x) {
+      return (std::min)(std::size_t((x / largest + 1) * 0.5f * float(side)), side - 1);
+    };
+    const std::size_t face = 2 * std::size_t(axis) + (normal[axis] < 0);
+    bins[(face * side + cell(normal[(axis + 1) % 3])) * side + cell(normal[(axis + 2) % 3])].push_back(i);
   }
   std::vector<std::int32_t> order;
   n = (std::min)(n, surfels.size());

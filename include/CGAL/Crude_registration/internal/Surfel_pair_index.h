@@ -148,16 +148,12 @@ public:
   template <class Function>
   void for_each_run(const Pair_angles& angles, Function&& f) const
   {
-    int a[2], b[2], t[2];
-    two_bins(angles.first * (float(angle_bins) / pi), a);
-    two_bins(angles.second * (float(angle_bins) / pi), b);
-    two_bins((angles.turn + pi) * (float(turn_bins) / (2 * pi)), t);
-    for (int i = 0; i < 2; ++i) {
-      if (a[i] < 0 || a[i] >= angle_bins) continue;
-      for (int j = 0; j < 2; ++j) {
-        if (b[j] < 0 || b[j] >= angle_bins) continue;
-        for (int k = 0; k < 2; ++k) {
-          const std::size_t c = std::size_t((a[i] * angle_bins + b[j]) * turn_bins + (t[k] + turn_bins) % turn_bins);
+    for (const int i : two_bins(angles.first * (float(angle_bins) / pi))) {
+      if (i < 0 || i >= angle_bins) continue;
+      for (const int j : two_bins(angles.second * (float(angle_bins) / pi))) {
+        if (j < 0 || j >= angle_bins) continue;
+        for (const int k : two_bins((angles.turn + pi) * (float(turn_bins) / (2 * pi)))) {
+          const std::size_t c = bin(i, j, (k + turn_bins) % turn_bins);
           f(m_entries.data() + m_offsets[c], m_entries.data() + m_offsets[c + 1]);
         }
       }
@@ -174,19 +170,22 @@ public:
 private:
   static constexpr float pi = 3.14159265f;
   static constexpr int angle_bins = 15, turn_bins = 20; // 12 and 18 degrees
-  static constexpr std::size_t bins = std::size_t(angle_bins * angle_bins * turn_bins);
+  static constexpr std::size_t bins = std::size_t(angle_bins) * angle_bins * turn_bins;
 
-  static void two_bins(float x, int (&b)[2])
+  static std::array<int, 2> two_bins(float x)
   {
-    b[0] = int(std::floor(x - 0.5f));
-    b[1] = b[0] + 1;
+    const int b = int(std::floor(x - 0.5f));
+    return {b, b + 1};
+  }
+  static std::size_t bin(int i, int j, int k)
+  {
+    return (std::size_t(i) * angle_bins + std::size_t(j)) * turn_bins + std::size_t(k);
   }
   static std::size_t bin(const Pair_angles& a)
   {
-    const int i = (std::min)(int(a.first * (float(angle_bins) / pi)), angle_bins - 1),
-              j = (std::min)(int(a.second * (float(angle_bins) / pi)), angle_bins - 1),
-              k = (std::max)(0, int((a.turn + pi) * (float(turn_bins) / (2 * pi)))) % turn_bins;
-    return std::size_t((i * angle_bins + j) * turn_bins + k);
+    return bin((std::min)(int(a.first * (float(angle_bins) / pi)), angle_bins - 1),
+               (std::min)(int(a.second * (float(angle_bins) / pi)), angle_bins - 1),
+               (std::max)(0, int((a.turn + pi) * (float(turn_bins) / (2 * pi)))) % turn_bins);
   }
 
   std::vector<std::uint32_t> m_offsets;
