@@ -1,0 +1,66 @@
+// The first byte says the format, the others are the file: a scan, or an IO_error.
+
+#include <CGAL/Crude_registration/IO/read_scan.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace CR = CGAL::Crude_registration;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Scan = CR::Scan_file<Kernel>;
+
+namespace {
+
+// In memory where there is such a place; one file a process.
+const std::string& file_name(const char* extension)
+{
+  static const std::string folder = std::filesystem::is_directory("/dev/shm")
+                                        ? std::string("/dev/shm")
+                                        : std::filesystem::temp_directory_path().string();
+  static std::string name;
+  name = folder + "/crude_registration_fuzz_" + std::to_string(getpid()) + extension;
+  return name;
+}
+
+bool is_finite(const Kernel::Point_3& p)
+{
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  if (size == 0) return 0;
+  const char* extensions[] = {".ply", ".off", ".obj", ".stl", ".ptx", ".xyz", ".csv", ".ts"};
+  const std::string& name = file_name(extensions[data[0] % 8]);
+  {
+    std::ofstream out(name, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(data + 1), std::streamsize(size - 1));
+  }
+  try {
+    const Scan scan = CR::read_scan<Kernel>(name);
+    if (scan.kind == Scan::MESH && (!CGAL::is_valid_polygon_mesh(scan.mesh) || scan.mesh.is_empty())) std::abort();
+    if (scan.kind == Scan::POINTS && scan.points.empty()) std::abort();
+    for (const auto& p : scan.points)
+      if (!is_finite(p)) std::abort();
+    for (const auto v : scan.mesh.vertices())
+      if (!is_finite(scan.mesh.point(v))) std::abort();
+    for (const auto& p : scan.image.points())
+      if (!is_finite(p)) std::abort();
+  } catch (const CR::IO_error&) {
+  }
+  std::remove(name.c_str());
+  return 0;
+}
