@@ -132,9 +132,12 @@ private:
 
   static void check(const Point_3& p)
   {
-    if (!std::isfinite(CGAL::to_double(p.x())) || !std::isfinite(CGAL::to_double(p.y())) ||
-        !std::isfinite(CGAL::to_double(p.z())))
-      throw std::invalid_argument("Range_image: a coordinate of points is NaN or infinite");
+    const internal::Vector q = internal::to_vector(p);
+    if (!q.allFinite()) throw std::invalid_argument("Range_image: a coordinate of points is NaN or infinite");
+    constexpr double largest = 1e75; // products of four lengths have to be numbers
+    if (q.cwiseAbs().maxCoeff() > largest)
+      throw std::invalid_argument(
+          "Range_image: a coordinate of points is above 1e75: another unit of length is needed");
   }
 
   std::size_t m_columns = 0;

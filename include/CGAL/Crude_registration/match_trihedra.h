@@ -545,7 +545,8 @@ struct Trihedron_match
  *
  * \throws std::invalid_argument if a face of a mesh is not a triangle, a coordinate, normal or curvature is not finite,
  * `source` has fewer than four vertices off its border or `target` fewer than four vertices (those without a normal do
- * not count), the tolerance is not a finite number above zero, or not \f$ 0 \le f_1 < f_2 \f$.
+ * not count), the tolerance is not between 1e-5 and 1 times the mean extent of `source`, or not
+ * \f$ 0 \le f_1 < f_2 \f$.
  */
 template <class Kernel = Exact_predicates_inexact_constructions_kernel, class SourceGraph, class TargetGraph,
           class NamedParameters1 = parameters::Default_named_parameters,
@@ -565,12 +566,16 @@ std::vector<Trihedron_match<Kernel>> match_trihedra(const SourceGraph& source, c
     throw std::invalid_argument("match_trihedra: source has fewer than four vertices off its border with a normal");
   if (std::count_if(d.normals.begin(), d.normals.end(), [](const internal::Vector& n) { return !n.isZero(0); }) < 4)
     throw std::invalid_argument("match_trihedra: target has fewer than four vertices with a normal");
-  const std::vector<Spatial_trihedron> trihedra = internal::spatial_trihedra(
-      s.points, s.inside,
-      internal::trihedron_options(shares, internal::scan_extent(s_mesh, np_source, "match_trihedra").mean()));
+  const double extent = internal::scan_extent(s_mesh, np_source, "match_trihedra").mean();
   internal::Match_tolerances tolerances;
   tolerances.length = internal::positive_parameter(
       np_source, internal_np::tolerance, 0.7 * internal::median_edge_length(d_mesh), "match_trihedra", "tolerance");
+  if (!(tolerances.length < extent && tolerances.length > 1e-5 * extent))
+    throw std::invalid_argument(
+        "match_trihedra: tolerance (0.7 edges of target if not given) is not between 1e-5 and 1 "
+        "times the extent of source");
+  const std::vector<Spatial_trihedron> trihedra =
+      internal::spatial_trihedra(s.points, s.inside, internal::trihedron_options(shares, extent));
   tolerances.angle = 15 * CGAL_PI / 180;
   tolerances.curvature = 0.15 / tolerances.length;
 

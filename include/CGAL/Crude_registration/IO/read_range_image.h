@@ -12,6 +12,7 @@
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/estimate_sensor.h>
 #include <CGAL/Crude_registration/internal/Ply_reader.h>
+#include <CGAL/Crude_registration/internal/checked_range_image.h>
 #include <CGAL/Crude_registration/internal/read_file.h>
 
 #include <istream>
@@ -33,7 +34,8 @@ Range_image<Kernel> to_range_image(Ply_contents&& ply, const std::string& file)
   std::vector<Point_3> points;
   points.reserve(ply.points.size());
   for (const auto& p : ply.points) points.emplace_back(p[0], p[1], p[2]);
-  Range_image<Kernel> image(ply.columns, ply.rows, std::move(points), std::move(ply.grid));
+  Range_image<Kernel> image =
+      checked_range_image<Kernel>(ply.columns, ply.rows, std::move(points), std::move(ply.grid), file);
   const auto& v = ply.viewpoint;
   const auto& d = ply.viewing_direction;
   if (ply.has_viewpoint) image.set_sensor(Sensor<Kernel>::perspective(Point_3(v[0], v[1], v[2])));

@@ -60,8 +60,8 @@ struct Prepared_scan
 };
 
 // The samples (weight 1 each, or `weights`) of each cell of a grid whose cells meet at the origin, as surfels: means of
-// positions and normals. Samples of one cell that face away from its first one are another sheet and make a surfel of
-// their own. In the order of the cells.
+// positions and normals. Samples of one cell that face away from its least one (in x, then y, then z) are another sheet
+// and make a surfel of their own. In the order of the cells; that of the samples does not matter but for rounding.
 inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std::vector<Vector_f>& normals,
                                   const std::vector<float>& weights, float cell)
 {
@@ -86,28 +86,34 @@ inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std
   level.spacing = cell;
   struct Sum
   {
-    Vector_f position = Vector_f::Zero(), normal = Vector_f::Zero();
-    float weight = 0;
+    Vector position = Vector::Zero(), normal = Vector::Zero();
+    double weight = 0;
   };
   const auto emit = [&](const Sum& s) {
-    const float length = s.normal.norm();
-    if (!(length > 0.4f * s.weight)) return; // no surface with a side
+    const double length = s.normal.norm();
+    if (!(length > 0.4 * s.weight)) return; // no surface with a side
     Surfel surfel;
-    surfel.position = s.position / s.weight;
-    surfel.normal = s.normal / length;
+    surfel.position = (s.position / s.weight).cast<float>();
+    surfel.normal = (s.normal / length).cast<float>();
     level.surfels.push_back(surfel);
-    level.weights.push_back(s.weight);
+    level.weights.push_back(float(s.weight));
+  };
+  const auto is_less = [&](const Item& a, const Item& b) {
+    const Vector_f &p = points[a.index], &q = points[b.index];
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
   };
   for (std::size_t from = 0; from < items.size();) {
     Sum front, back;
-    const Vector_f& reference = normals[items[from].index];
-    std::size_t to = from;
-    for (; to < items.size() && items[to].key == items[from].key; ++to) {
-      const std::size_t i = items[to].index;
-      const float w = weights.empty() ? 1.f : weights[i];
+    std::size_t to = from, least = from;
+    for (; to < items.size() && items[to].key == items[from].key; ++to)
+      if (is_less(items[to], items[least])) least = to;
+    const Vector_f& reference = normals[items[least].index];
+    for (std::size_t k = from; k < to; ++k) {
+      const std::size_t i = items[k].index;
+      const double w = weights.empty() ? 1. : double(weights[i]);
       Sum& sum = normals[i].dot(reference) >= 0 ? front : back;
-      sum.position += w * points[i];
-      sum.normal += w * normals[i];
+      sum.position += w * points[i].cast<double>();
+      sum.normal += w * normals[i].cast<double>();
       sum.weight += w;
     }
     if (front.weight > 0) emit(front);

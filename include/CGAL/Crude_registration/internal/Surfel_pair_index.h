@@ -119,9 +119,12 @@ public:
       Entry entry;
       std::uint16_t bin;
     };
+    // Surfels within a length of each other are some hundred thousand pairs; that of another scan, of which this one is
+    // but a speck, does not find them all.
+    constexpr std::size_t most = 2000000;
     std::vector<Item> items;
     m_offsets.assign(bins + 1, 0);
-    for (std::size_t i = 0; i < surfels.size(); ++i)
+    for (std::size_t i = 0; i < surfels.size() && items.size() < most; ++i)
       grid.for_each_within(points[i], double(length + half_width), [&](std::int32_t j, double d2) {
         Pair_angles a;
         if (d2 < least || std::size_t(j) <= i || !pair_angles(surfels[i], surfels[std::size_t(j)], a)) return;

@@ -161,6 +161,23 @@ auto mutable_vertex_point_map(Face_graph& graph, const NP& np)
   return parameter(np, internal_np::vertex_point, get_property_map(vertex_point, graph));
 }
 
+// Products of four lengths have to be numbers.
+constexpr double largest_coordinate = 1e75, smallest_size = 1e-75;
+
+inline void check_size(const std::vector<Vector>& points, const std::string& function, const std::string& argument)
+{
+  if (points.empty()) return;
+  Vector low = points.front(), high = low;
+  for (const Vector& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double size = (high - low).maxCoeff();
+  if ((std::max)(high.maxCoeff(), -low.minCoeff()) > largest_coordinate || (size > 0 && size < smallest_size))
+    throw std::invalid_argument(function + ": " + argument +
+                                " has coordinates above 1e75 or a size below 1e-75: another unit of length is needed");
+}
+
 // A FaceGraph as flat arrays: vertices and faces in the order of vertices(graph) and faces(graph), vertices without a
 // face included, null faces left out.
 // `function` and `argument` name the caller and its argument in the text of what is thrown:
@@ -189,6 +206,7 @@ Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string&
     flat_index[std::size_t(get(index_map, v))] = std::int32_t(mesh.points.size());
     mesh.points.push_back(q);
   }
+  check_size(mesh.points, function, argument);
   for (auto f : faces(graph)) {
     const auto h = halfedge(f, graph);
     const auto h1 = next(h, graph), h2 = next(h1, graph);

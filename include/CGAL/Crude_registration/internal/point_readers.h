@@ -12,6 +12,7 @@
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/Text_cursor.h>
+#include <CGAL/Crude_registration/internal/checked_range_image.h>
 
 #include <Eigen/LU>
 
@@ -205,7 +206,7 @@ Range_image<Kernel> read_ptx(std::string_view text, const std::string& file)
     cursor.fail("more samples than columns times rows; a PTX file of several scans has to be split");
   if (points.empty()) throw IO_error(file, "the range image has no samples");
 
-  Range_image<Kernel> image(columns, rows, std::move(points), std::move(grid));
+  Range_image<Kernel> image = checked_range_image<Kernel>(columns, rows, std::move(points), std::move(grid), file);
   const Vector& t = world_from_scanner.translation;
   image.set_sensor(Sensor<Kernel>::perspective(Point_3(t.x(), t.y(), t.z())));
   return image;

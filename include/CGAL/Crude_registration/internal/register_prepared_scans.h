@@ -109,11 +109,12 @@ inline bool are_swapped(const Prepared_scan& source, const Prepared_scan& target
 constexpr double as_good = 0.85;
 
 // How many distinct poses explain the scans as well as the best one, with it.
+// \pre There is a pose.
 inline std::size_t number_of_equals(const std::vector<Judged_pose>& poses)
 {
-  return std::size_t(std::count_if(poses.begin(), poses.end(), [&](const Judged_pose& p) {
-    return double(p.score()) >= as_good * double(poses.front().score());
-  }));
+  return std::size_t(1 + std::count_if(poses.begin() + 1, poses.end(), [&](const Judged_pose& p) {
+                       return double(p.score()) >= as_good * double(poses.front().score());
+                     }));
 }
 
 // The confidence in the best pose if it has no equals: a logistic function of the number of surfels that agree, not
