@@ -400,6 +400,7 @@ BOOST_AUTO_TEST_CASE(wrong_ascii_bodies)
   CHECK_ERROR(replaced(text, "0 1 1.5", "0 1 1,5"), "scan.ply:14: ", "1,5");
   for (const std::string bad : {"nan", "NaN", "inf", "-inf", "1e999", "-1e999"})
     CHECK_ERROR(replaced(text, "0 1 1.5", "0 1 " + bad), "scan.ply:14: ", "vertex 2 is NaN or infinite");
+  CHECK_ERROR(replaced(text, "0 1 1.5", "0 1 1e90"), "scan.ply: ", "1e75");
   CHECK_ERROR(replaced(text, "1 2\n", "1 3\n"), "scan.ply:17: ", "vertex index 3");
   CHECK_ERROR(replaced(text, "1 2\n", "1 -1\n"), "scan.ply:17: ", "vertex index -1");
   CHECK_ERROR(replaced(text, "1 2\n", "1 99999999999999999999\n"), "scan.ply:17: ", "integer");

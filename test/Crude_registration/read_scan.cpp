@@ -202,6 +202,7 @@ BOOST_AUTO_TEST_CASE(ptx_files)
   CHECK_ERROR("a.ptx", head + samples + head, ":17: ", "several scans");
   CHECK_ERROR("a.ptx", head + "0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 0\n", ": ", "no samples");
   CHECK_ERROR("a.ptx", head + "1 nan 0 0\n", ":11: ", "NaN");
+  CHECK_ERROR("a.ptx", head + "1 1e90 0 0\n" + samples.substr(samples.find('\n') + 1), ": ", "1e75");
   std::string wrong = head + samples;
   wrong.replace(wrong.find("-1 0 0 0"), 8, "-2 0 0 0");
   CHECK_ERROR("a.ptx", wrong, ":10: ", "not rigid");
