@@ -60,8 +60,8 @@ struct Prepared_scan
 };
 
 // The samples (weight 1 each, or `weights`) of each cell of a grid whose cells meet at the origin, as surfels: means of
-// positions and normals. Samples of one cell that face away from its least one (in x, then y, then z) are another sheet
-// and make a surfel of their own. In the order of the cells; that of the samples does not matter but for rounding.
+// positions and normals. Samples of one cell that face away from their mean normal are another sheet and make a
+// surfel of their own. In the order of the cells; that of the samples does not matter but for rounding.
 inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std::vector<Vector_f>& normals,
                                   const std::vector<float>& weights, float cell)
 {
@@ -105,9 +105,14 @@ inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std
   for (std::size_t from = 0; from < items.size();) {
     Sum front, back;
     std::size_t to = from, least = from;
-    for (; to < items.size() && items[to].key == items[from].key; ++to)
+    Vector all = Vector::Zero();
+    for (; to < items.size() && items[to].key == items[from].key; ++to) {
+      all += normals[items[to].index].cast<double>();
       if (is_less(items[to], items[least])) least = to;
-    const Vector_f& reference = normals[items[least].index];
+    }
+    // Two sheets of the same size leave no mean normal.
+    const Vector_f reference =
+        all.norm() > 0.01 * double(to - from) ? Vector_f(all.cast<float>()) : normals[items[least].index];
     for (std::size_t k = from; k < to; ++k) {
       const std::size_t i = items[k].index;
       const double w = weights.empty() ? 1. : double(weights[i]);
