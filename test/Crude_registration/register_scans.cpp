@@ -62,24 +62,24 @@ struct View
   Vector centre; // of the statue, in the scan's frame
 };
 
-// The view of statue `seed` from the direction of an angle in degrees. Made once.
-const View& view(unsigned seed, int degrees, double noise = 0.2)
+// The view of statue `seed` from the direction of an angle in degrees, by so many lines of sight a side. Made once.
+const View& view(unsigned seed, int degrees, double noise = 0.2, std::size_t samples = 330)
 {
   static std::map<unsigned, CR::Simulated_scene> scenes;
-  static std::map<std::tuple<unsigned, int, double>, View> views;
+  static std::map<std::tuple<unsigned, int, double, std::size_t>, View> views;
   auto scene = scenes.find(seed);
   if (scene == scenes.end()) {
     Mesh statue;
     CR::make_statue(statue, 72, p::random_seed(seed));
     scene = scenes.emplace(std::piecewise_construct, std::tuple(seed), std::tuple<const Mesh&>(statue)).first;
   }
-  const auto key = std::tuple(seed, degrees, noise);
+  const auto key = std::tuple(seed, degrees, noise, samples);
   const auto found = views.find(key);
   if (found != views.end()) return found->second;
   const double angle = degrees * pi / 180;
   const CGAL::Bbox_3 box(-0.85, -0.85, -1, 0.85, 0.85, 1);
   auto camera = CR::Range_camera<Kernel>::framing(
-      box, Kernel::Vector_3(-std::cos(angle), -std::sin(angle), degrees % 90 == 0 ? -0.2 : 0.1), 330, true);
+      box, Kernel::Vector_3(-std::cos(angle), -std::sin(angle), degrees % 90 == 0 ? -0.2 : 0.1), samples, true);
   camera.noise = noise;
   if (noise > 0) camera.drop_out = 0.02, camera.grazing_drop_out = 0.8;
   camera.seed = std::uint64_t(1000 + degrees);
@@ -392,6 +392,32 @@ BOOST_AUTO_TEST_CASE(a_scan_against_the_closed_model)
   BOOST_TEST(!model.has_free_space());
   const Result result = CR::register_scans(source.scan, model);
   check_right(result, source.scene_from_scan, source.centre, (std::max)(source.scan.spacing(), model.spacing()));
+}
+
+// 2:1 and 4:1.
+BOOST_AUTO_TEST_CASE(scans_of_different_resolution)
+{
+  const View& fine = view(0, 0, 0.2, 600);
+  for (const View* coarse : {&view(0, 45, 0.2, 300), &view(0, 45, 0.2, 150)}) {
+    check_right(CR::register_scans(fine.scan, coarse->scan), fine, *coarse);
+    check_right(CR::register_scans(coarse->scan, fine.scan), *coarse, fine);
+  }
+}
+
+// Several views in one mesh, of which no sensor sees all.
+BOOST_AUTO_TEST_CASE(a_scan_against_fused_views)
+{
+  Flat_mesh fused;
+  for (int degrees : {0, 90}) {
+    const View& v = view(0, degrees);
+    const Flat_mesh part = flat(mesh_of(v.image));
+    const auto first = std::int32_t(fused.points.size());
+    for (const Vector& q : part.points) fused.points.push_back(v.scene_from_scan(q));
+    for (const auto& f : part.faces) fused.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+  }
+  const Scan model(mesh_of(fused));
+  const View& source = view(0, 45);
+  check_right(CR::register_scans(source.scan, model), source.scene_from_scan, source.centre, source.scan.spacing());
 }
 
 BOOST_AUTO_TEST_CASE(range_image_mesh_and_points_of_one_scan)

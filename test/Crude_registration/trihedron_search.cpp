@@ -5,11 +5,6 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// g++ takes the default value that CGAL gives a property of a type of Eigen's for a use of uninitialised memory.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-
 // The paper's method from two scans to the motion.
 
 #define BOOST_TEST_MODULE trihedron_search
