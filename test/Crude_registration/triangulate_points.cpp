@@ -226,15 +226,15 @@ BOOST_AUTO_TEST_CASE(without_a_sensor_what_is_apart_stays_apart)
   BOOST_TEST(longest_edge(mesh) < 0.3);
 }
 
-BOOST_AUTO_TEST_CASE(many_points_are_thinned_to_about_40000)
+BOOST_AUTO_TEST_CASE(many_points_are_thinned_to_about_80000)
 {
   Random random(6);
   const auto surface = [&](const Point& p) { return point(vector(p) * 7 + 0.01 * random.vector()); };
   std::vector<Point> points;
-  for (const Point& p : sphere(100000)) points.push_back(surface(p));
+  for (const Point& p : sphere(200000)) points.push_back(surface(p));
   const Mesh mesh = triangulated(points, parameters::default_values());
-  BOOST_TEST(mesh.number_of_vertices() > 36000);
-  BOOST_TEST(mesh.number_of_vertices() < 44000);
+  BOOST_TEST(mesh.number_of_vertices() > 72000);
+  BOOST_TEST(mesh.number_of_vertices() < 88000);
   BOOST_TEST(area(mesh) == 4 * pi * 49, boost::test_tools::tolerance(0.03));
 }
 
