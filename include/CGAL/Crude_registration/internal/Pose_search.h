@@ -156,7 +156,7 @@ struct Search_round
 
 struct Search_parameters
 {
-  std::vector<Search_round> rounds = {{{0.16f}, 300, 5, 80000, 14, 24, 5},
+  std::vector<Search_round> rounds = {{{0.16f}, 300, 5, 80000, 14, 60, 8},
                                       {{0.16f, 0.1f}, 800, 5, 300000, 14, 100, 8},
                                       {{0.25f, 0.16f, 0.1f, 0.06f}, 2000, 5, 4000000, 14, 400, 24}};
   float source_half_width = 0.3f; // of the lengths, in spacings

@@ -269,7 +269,7 @@ Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepa
     Refinement_options options{};
     options.sampling_distance = (std::max)(source.spacing, target.spacing);
     options.reach = 2 * options.sampling_distance;
-    options.tolerance = 1e-3;
+    options.tolerance = 1e-2; // of a sampling distance: far below the noise
     Point_to_plane<ConcurrencyTag, Surfel_target> refine(points, normals, surface, options);
     const Rigid_motion crude = to_rigid_motion(outcome.poses.front().pose);
     outcome.refinement = refine(crude);
