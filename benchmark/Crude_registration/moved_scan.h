@@ -77,9 +77,9 @@ inline std::optional<Kernel::Point_3> read_point(const std::string& text)
 inline CR::internal::Rigid_motion motion_of_name(const std::string& name, double size)
 {
   std::uint64_t state = 14695981039346656037u;
-  for (char c : name) state = CR::internal::mixed(state ^ static_cast<unsigned char>(c));
+  for (char c : name) state = CR::internal::Counter_random::mixed(state ^ static_cast<unsigned char>(c));
   const auto next = [&state] {
-    state = CR::internal::mixed(state);
+    state = CR::internal::Counter_random::mixed(state);
     return 2 * (double(state >> 11) / 9007199254740992.) - 1;
   };
   Eigen::Quaterniond q;

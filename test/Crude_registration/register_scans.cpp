@@ -1,11 +1,13 @@
 #define BOOST_TEST_MODULE register_scans
 #include <boost/test/unit_test.hpp>
 
+#include "generated_room.h"
 #include "generated_surfaces.h"
 
 #include <CGAL/Crude_registration/make_statue.h>
 #include <CGAL/Crude_registration/register_scans.h>
 #include <CGAL/Crude_registration/simulate_range_image.h>
+#include <CGAL/Crude_registration/triangulate_points.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -418,6 +420,30 @@ BOOST_AUTO_TEST_CASE(a_scan_against_fused_views)
   const Scan model(mesh_of(fused));
   const View& source = view(0, 45);
   check_right(CR::register_scans(source.scan, model), source.scene_from_scan, source.centre, source.scan.spacing());
+}
+
+// Plain points of a camera that moved, from two places.
+BOOST_AUTO_TEST_CASE(parts_of_a_room)
+{
+  using Place = generated::Point;
+  const auto a = generated::points_of_room(Place(0.6, 0.6, 1.5), {Place(3.5, 1, 0.5), Place(3, 2.5, 0.6)}),
+             b = generated::points_of_room(Place(1.2, 0.5, 1.4), {Place(3.8, 2.2, 0.8), Place(2, 2.8, 0.7)});
+  Random random(9);
+  for (int i = 0; i < 3; ++i) {
+    const Rigid_motion to_source = random.motion(3), to_target = random.motion(3);
+    const auto scan = [](const std::vector<Place>& points, const Rigid_motion& motion) {
+      std::vector<Point> moved;
+      for (const Place& q : points) {
+        const Vector v = motion(generated::vector(q));
+        moved.emplace_back(v.x(), v.y(), v.z());
+      }
+      Mesh mesh;
+      CR::triangulate_points(moved, mesh);
+      return Scan(mesh);
+    };
+    check_right(CR::register_scans(scan(a, to_source), scan(b, to_target)), to_target * to_source.inverse(),
+                to_source(Vector(3, 2, 1)), 0.03);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(range_image_mesh_and_points_of_one_scan)

@@ -8,6 +8,7 @@
 #define BOOST_TEST_MODULE triangulate_points
 #include <boost/test/unit_test.hpp>
 
+#include "generated_room.h"
 #include "range_images.h"
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
@@ -226,6 +227,36 @@ BOOST_AUTO_TEST_CASE(without_a_sensor_what_is_apart_stays_apart)
   BOOST_TEST(longest_edge(mesh) < 0.3);
 }
 
+// The share of the area that looks at a place.
+double looks_at(const Mesh& mesh, const Point& place)
+{
+  double there = 0, all = 0;
+  for (const auto f : faces(mesh)) {
+    const auto h = halfedge(f, mesh);
+    const Vector a = vector(mesh.point(source(h, mesh))), b = vector(mesh.point(target(h, mesh))),
+                 c = vector(mesh.point(target(next(h, mesh), mesh)));
+    const Vector n = (b - a).cross(c - a);
+    all += n.norm();
+    if (n.dot(vector(place) - a) > 0) there += n.norm();
+  }
+  return there / all;
+}
+
+BOOST_AUTO_TEST_CASE(without_a_sensor_a_room_looks_inwards)
+{
+  const Point eye(0.6, 0.6, 1.5);
+  Random random(8);
+  for (const auto& targets :
+       {std::vector<Point>{{3.5, 1, 0.5}, {3, 2.5, 0.6}}, std::vector<Point>{{2, 2.9, 1}, {3.5, 2.2, 1}},
+        std::vector<Point>{{3.9, 0.6, 1}, {3.9, 2.5, 1}, {2, 2.8, 0.5}}}) {
+    const Rigid_motion motion = random.motion(10);
+    std::vector<Point> points;
+    for (const Point& p : points_of_room(eye, targets)) points.push_back(point(motion(vector(p))));
+    const Mesh mesh = triangulated(shuffled(points), parameters::default_values());
+    BOOST_TEST(looks_at(mesh, point(motion(vector(eye)))) > 0.95);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(many_points_are_thinned_to_about_80000)
 {
   Random random(6);
@@ -348,6 +379,7 @@ BOOST_AUTO_TEST_CASE(real_points_with_and_without_their_sensor)
   const auto fragments = files(real_scans("3dmatch_kitchen"), ".ply");
   if (fragments.empty()) return;
   const Mesh mesh = triangulated(CR::read_scan<Kernel>(fragments[0].string()).points, parameters::default_values());
-  BOOST_TEST(mesh.number_of_vertices() > 38000);
-  BOOST_TEST(mesh.number_of_faces() > 70000);
+  BOOST_TEST(mesh.number_of_vertices() > 76000);
+  BOOST_TEST(mesh.number_of_faces() > 140000);
+  BOOST_TEST(looks_at(mesh, Point(0, 0, 0)) > 0.85); // where the camera's way began
 }

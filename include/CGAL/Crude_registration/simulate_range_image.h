@@ -11,19 +11,12 @@
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/Counter_random.h>
 #include <CGAL/Crude_registration/internal/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/Triangle_tree.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/version.h>
-#if CGAL_VERSION_NR >= CGAL_VERSION_NUMBER(6, 0, 0)
-#include <CGAL/AABB_traits_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#endif
 
 #include <cmath>
 #include <cstddef>
@@ -178,16 +171,10 @@ Memory is linear in the number of faces, construction \f$O(n \log n)\f$.
 class Simulated_scene
 {
   using Exact_predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Triangles = std::vector<Exact_predicates::Triangle_3>;
-  using Primitive = CGAL::AABB_triangle_primitive<Exact_predicates, Triangles::const_iterator>;
-#if CGAL_VERSION_NR >= CGAL_VERSION_NUMBER(6, 0, 0)
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Exact_predicates, Primitive>>;
-#else
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Exact_predicates, Primitive>>;
-#endif
+  using Tree = internal::Triangle_tree<Exact_predicates>;
 
-  Triangles m_triangles;
-  Tree m_tree;
+  Tree::Triangles m_triangles;
+  Tree::type m_tree;
 
 public:
   /// prepares a triangle mesh; both sides of its faces are seen.

@@ -74,7 +74,9 @@ Without a sensor, the points are joined by `CGAL::advancing_front_surface_recons
 thinned to about 80,000 first, each the mean of the points in a cell of a grid along their principal axes. The longest
 edge is `maximum_edge_ratio` times the spacing of the points that are joined. Each connected part of the result is
 turned so that its faces look, in the mean, away from the centroid of all points, as those of an object seen from
-outside. About two seconds for 300,000 points.
+outside. But if a place is found from where most of the surface is visible, and looks at less than half of the sphere,
+as where a camera moved in a room, and no such place outside of what may be an object, each face is turned to that
+place. About two seconds for 300,000 points.
 
 The vertices are in the order of the points (with the thinning: of the grid's cells); where triangles meet that share no
 edge, a vertex is repeated, at the end: the result is a manifold. Points in no triangle become no vertices.

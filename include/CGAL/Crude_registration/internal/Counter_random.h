@@ -10,7 +10,11 @@
 
 #include <bitset>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -32,7 +36,10 @@ class Counter_random
   }
 
 public:
-  explicit Counter_random(std::uint64_t seed) : m_seed(mix(seed + 0x9e3779b97f4a7c15u)) {}
+  // One number for another.
+  static std::uint64_t mixed(std::uint64_t x) { return mix(x + 0x9e3779b97f4a7c15u); }
+
+  explicit Counter_random(std::uint64_t seed) : m_seed(mixed(seed)) {}
 
   // Independent numbers for every sub-stream of the same seed.
   Counter_random stream(std::uint64_t i) const { return Counter_random(bits(i)); }
@@ -53,6 +60,15 @@ public:
     return (static_cast<double>(ones) - 128.5 + words.uniform(4)) / std::sqrt(64. + 1. / 12.);
   }
 };
+
+// 0 .. n-1 in a fixed order without pattern.
+inline std::vector<std::int32_t> shuffled(std::size_t n, std::uint64_t seed)
+{
+  std::vector<std::int32_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[Counter_random::mixed(seed + i) % i]);
+  return order;
+}
 
 } // namespace internal
 } // namespace Crude_registration

@@ -156,7 +156,7 @@ struct Search_round
 
 struct Search_parameters
 {
-  std::vector<Search_round> rounds = {{{0.16f}, 300, 5, 80000, 14, 60, 8},
+  std::vector<Search_round> rounds = {{{0.16f}, 300, 5, 80000, 14, 32, 8},
                                       {{0.16f, 0.1f}, 800, 5, 300000, 14, 100, 8},
                                       {{0.25f, 0.16f, 0.1f, 0.06f}, 2000, 5, 4000000, 14, 400, 24}};
   float source_half_width = 0.3f; // of the lengths, in spacings
@@ -276,10 +276,16 @@ public:
     refine(200, {1.5f, 1.5f, 1.f});
     if (candidates.size() > 4 * number) candidates.resize(4 * number);
     refine(600, {1.f, 0.5f, 0.5f, 0.5f});
+    // Some from around each pose, as not all end in it; not all from around the best one, as it needs rivals.
+    constexpr auto most_of_one = 3;
     std::vector<Candidate> best;
     for (const Candidate& c : candidates) {
       if (best.size() == number) break;
-      if (std::none_of(best.begin(), best.end(), [&](const Candidate& k) { return are_close(c.pose, k.pose); }))
+      const auto count = [&](const auto& is_near) {
+        return std::count_if(best.begin(), best.end(), [&](const Candidate& k) { return is_near(c.pose, k.pose); });
+      };
+      if (count([&](const Pose& x, const Pose& y) { return are_close(x, y); }) == 0 &&
+          count([&](const Pose& x, const Pose& y) { return are_one(x, y); }) < most_of_one)
         best.push_back(c);
     }
     return best;
@@ -366,13 +372,17 @@ private:
     return trace > 2.989f && (a.translation - b.translation).squaredNorm() < 2.25f * m_spacing * m_spacing;
   }
 
-  // Keeps `judged` sorted and its poses more than 10 degrees or a twentieth of the extent apart.
+  // Poses that are no more than 10 degrees and a twentieth of the extent apart.
+  bool are_one(const Pose& a, const Pose& b) const
+  {
+    const float trace = (a.rotation.array() * b.rotation.array()).sum();
+    return trace > 1 + 2 * 0.985f && (a.translation - b.translation).norm() < 0.05f * m_extent;
+  }
+
+  // Keeps `judged` sorted and its poses distinct: the best of each.
   void add_distinct(const Judged_pose& pose, std::vector<Judged_pose>& judged) const
   {
-    const auto same = [&](const Judged_pose& other) {
-      const float trace = (pose.pose.rotation.array() * other.pose.rotation.array()).sum();
-      return trace > 1 + 2 * 0.985f && (pose.pose.translation - other.pose.translation).norm() < 0.05f * m_extent;
-    };
+    const auto same = [&](const Judged_pose& other) { return are_one(pose.pose, other.pose); };
     for (const Judged_pose& other : judged)
       if (other.score() >= pose.score() && same(other)) return;
     judged.erase(std::remove_if(judged.begin(), judged.end(), same), judged.end());
@@ -425,7 +435,7 @@ private:
       for (std::size_t k = 0; k < shells.size(); ++k) {
         const Surfel_pair_index& index = index_of_scale(round.scales[k]);
         for (int n = 0; n < round.pairs && !shells[k].empty(); ++n) {
-          const std::size_t r = mixed(std::uint64_t(v) * 64 + std::uint64_t(n)) % shells[k].size();
+          const std::size_t r = Counter_random::mixed(std::uint64_t(v) * 64 + std::uint64_t(n)) % shells[k].size();
           Source_pair p;
           p.first = v;
           p.second = shells[k][r];
@@ -469,7 +479,8 @@ private:
     const std::uint64_t seed = std::uint64_t(p.first) << 32 | std::uint64_t(p.second) << 8;
     witnesses.clear();
     for (int w = 0; w < m_parameters.witnesses; ++w)
-      witnesses.push_back(m_source.coarse.surfels[std::size_t(around[mixed(seed + std::uint64_t(w)) % around.size()])]);
+      witnesses.push_back(
+          m_source.coarse.surfels[std::size_t(around[Counter_random::mixed(seed + std::uint64_t(w)) % around.size()])]);
     const Vector_f d = (b.position - a.position).normalized();
     const auto arm = [&](const Surfel& s) -> Vector_f {
       const Vector_f e = s.position - a.position;

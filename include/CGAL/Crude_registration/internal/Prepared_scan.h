@@ -8,6 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_PREPARED_SCAN_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_PREPARED_SCAN_H
 
+#include <CGAL/Crude_registration/internal/Counter_random.h>
 #include <CGAL/Crude_registration/internal/Depth_buffer.h>
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
@@ -169,24 +170,6 @@ inline void describe_surfels(Surfel_level& level)
   }
 }
 
-// Fixed mixing of numbers (splitmix64): the search's only source of choice, the same everywhere.
-inline std::uint64_t mixed(std::uint64_t x)
-{
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
-// 0 .. n-1 in a fixed order without pattern.
-inline std::vector<std::int32_t> shuffled(std::size_t n, std::uint64_t seed)
-{
-  std::vector<std::int32_t> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[mixed(seed + i) % i]);
-  return order;
-}
-
 // Surfels that stand for the whole scan, in an order such that each beginning does: by turns from each direction of the
 // normal (Rusinkiewicz and Levoy 2001, normal-space sampling), so that a wall or a floor, whatever its size, does not
 // outvote all else.
@@ -330,6 +313,20 @@ inline Vector_f likely_viewing_direction(const Oriented_samples& samples)
   return double(facing) >= 0.97 * double(samples.normals.size()) ? Vector_f(-mean) : Vector_f(Vector_f::Zero());
 }
 
+// The share of the points that are further than `depth` behind what was seen in front of them. A scan's own points were
+// all seen.
+inline double hidden(const Depth_buffer& depths, const std::vector<Vector_f>& points, float depth)
+{
+  std::size_t known = 0, hidden = 0;
+  for (const Vector_f& p : points) {
+    const float d = depths.in_front(p);
+    if (!(d > -0.5f * (std::numeric_limits<float>::max)())) continue;
+    ++known;
+    hidden += d < -depth;
+  }
+  return known == 0 ? 0 : double(hidden) / double(known);
+}
+
 // Prepares a scan for search. The sensor is in the frame of the mesh.
 // A scan of fewer than four surfels cannot be registered; what it holds is prepared all the same.
 inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
@@ -390,8 +387,10 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
                                samples.points, cell);
   } else {
     const Vector_f likely = likely_viewing_direction(samples);
-    if (!likely.isZero())
-      scan.depths = Depth_buffer(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell);
+    if (!likely.isZero()) {
+      const Depth_buffer depths(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell);
+      if (hidden(depths, samples.points, float(0.1 * scan.extent)) < 0.02) scan.depths = depths;
+    }
   }
   return scan;
 }

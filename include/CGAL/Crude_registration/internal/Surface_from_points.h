@@ -10,6 +10,7 @@
 
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/flat_mesh_repair.h>
+#include <CGAL/Crude_registration/internal/likely_viewpoint.h>
 
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -51,7 +52,12 @@ public:
     advance_front(points, mesh);
     keep_used_points(mesh, points);
     split_non_manifold_vertices(mesh);
-    orient(mesh);
+    orient_outwards(mesh);
+    Vector viewpoint;
+    if (Likely_viewpoint(mesh, m_spacing, m_axes).find(viewpoint)) {
+      turn_to(viewpoint, mesh);
+      split_non_manifold_vertices(mesh);
+    }
     return mesh;
   }
 
@@ -69,19 +75,21 @@ private:
     Matrix covariance = Matrix::Zero();
     for (const Vector& p : m_points) covariance += (p - m_centroid) * (p - m_centroid).transpose();
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
-    const Matrix& axes = solver.eigenvectors();
+    m_axes = solver.eigenvectors();
     m_is_line = !(solver.eigenvalues()[1] > 1e-14 * solver.eigenvalues()[2]); // or one point, many times
     m_local.reserve(m_points.size());
     Vector third = Vector::Zero();
     for (const Vector& p : m_points) {
-      m_local.push_back(axes.transpose() * (p - m_centroid));
+      m_local.push_back(m_axes.transpose() * (p - m_centroid));
       third += m_local.back().cwiseProduct(m_local.back()).cwiseProduct(m_local.back());
       m_extent = std::max(m_extent, 2 * m_local.back().cwiseAbs().maxCoeff());
     }
     // an axis points to the side where the points reach farther
     for (int i = 0; i < 3; ++i)
-      if (third[i] < 0)
+      if (third[i] < 0) {
+        m_axes.col(i) = -m_axes.col(i);
         for (Vector& p : m_local) p[i] = -p[i];
+      }
   }
 
   // sorted numbers of the cells of the points
@@ -170,7 +178,7 @@ private:
   }
 
   // Turns each connected part so that its faces look, in the mean, away from the centroid of all points.
-  void orient(Flat_mesh& mesh) const
+  void orient_outwards(Flat_mesh& mesh) const
   {
     std::vector<std::size_t> parent(mesh.points.size());
     std::iota(parent.begin(), parent.end(), std::size_t(0));
@@ -198,7 +206,8 @@ private:
   const std::vector<Vector>& m_points;
   const double m_ratio;
   Vector m_centroid = Vector::Zero();
-  std::vector<Vector> m_local; // the points in their principal frame
+  Matrix m_axes = Matrix::Identity(); // of the principal frame
+  std::vector<Vector> m_local;        // the points in it
   bool m_is_line = false;
   double m_extent = 0;
   double m_spacing = 0;
