@@ -393,6 +393,8 @@ BOOST_AUTO_TEST_CASE(a_scan_against_the_closed_model)
   const Scan model(statue);
   BOOST_TEST(!model.has_free_space());
   const Result result = CR::register_scans(source.scan, model);
+  BOOST_TEST(result.source_has_free_space());
+  BOOST_TEST(!result.target_has_free_space());
   check_right(result, source.scene_from_scan, source.centre, (std::max)(source.scan.spacing(), model.spacing()));
 }
 

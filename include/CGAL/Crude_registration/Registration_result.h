@@ -102,6 +102,8 @@ public:
     double overlap = 0;
     double residual = 0;
     double free_space_violations = 0;
+    bool source_has_free_space = false;
+    bool target_has_free_space = false;
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     std::vector<std::string> free_motions;
     std::vector<Scored_motion> runners_up;
@@ -153,6 +155,13 @@ public:
 
   /// The share of either scan's surface that lies, under transformation(), where the other one's sensor saw nothing.
   double free_space_violations() const { return m_parts.free_space_violations; }
+
+  /// Whether what the source's sensor saw to be empty was judged: not where its sensor is unknown and its surface is
+  /// closed or seen from several sides, nor by the paper's method.
+  bool source_has_free_space() const { return m_parts.source_has_free_space; }
+
+  /// The same of the target.
+  bool target_has_free_space() const { return m_parts.target_has_free_space; }
 
   /// The covariance of the small motion \f$ x \rightarrow x + \omega \times x + v \f$ that follows transformation(), in
   /// the order \f$ (\omega_x, \omega_y, \omega_z, v_x, v_y, v_z) \f$: radians about the axes through the origin of the

@@ -46,6 +46,8 @@ Registration_result<Kernel> to_result(const Registration_outcome& outcome)
     parts.crude_transformation = to_aff_transformation<Kernel>(outcome.crude);
     parts.covariance = outcome.covariance;
   }
+  parts.source_has_free_space = outcome.source_has_free_space;
+  parts.target_has_free_space = outcome.target_has_free_space;
   parts.overlap = outcome.overlap;
   parts.residual = outcome.residual;
   if (!outcome.poses.empty()) {

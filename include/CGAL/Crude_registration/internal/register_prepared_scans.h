@@ -68,6 +68,7 @@ struct Registration_outcome
   Rigid_motion crude, motion;              // target from source, in the frames of the input
   Refinement refinement;                   // in own frames
   double overlap = 0, residual = 0;
+  bool source_has_free_space = false, target_has_free_space = false;
   Fit fit;
   Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
   Free_motions free_motions;              // in the frame of the input of what the poses call target
@@ -242,6 +243,8 @@ Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepa
                                              const Search_parameters& parameters = {})
 {
   Registration_outcome outcome;
+  outcome.source_has_free_space = a.depths.is_known();
+  outcome.target_has_free_space = b.depths.is_known();
   outcome.is_swapped = are_swapped(a, b);
   const Prepared_scan &source = outcome.is_swapped ? b : a, &target = outcome.is_swapped ? a : b;
   outcome.source_frame = source.own_from_input;

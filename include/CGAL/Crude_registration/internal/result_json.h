@@ -51,6 +51,8 @@ void write_json(Json_writer& json, const Registration_result<Kernel>& result, bo
   json.member("overlap", result.overlap());
   json.member("residual", result.residual());
   json.member("free_space_violations", result.free_space_violations());
+  json.member("source_has_free_space", result.source_has_free_space());
+  json.member("target_has_free_space", result.target_has_free_space());
   write_json(json.key("target_from_source"), result.transformation());
   write_json(json.key("crude_target_from_source"), result.crude_transformation());
   json.key("covariance").begin_array();
