@@ -246,7 +246,7 @@ BOOST_AUTO_TEST_CASE(motion_and_scale)
   generated::Random random(5);
   const Flat_mesh mesh = generated::bumps(15);
   const Curvature_field field = curvature_tensors(mesh);
-  for (double scale : {1.0, 1e-3, 0.3048, 1e6}) {
+  for (double scale : {1.0, 1e-3, 0.3048, 1e6, 1e-72, 1e72}) {
     const Rigid_motion motion = random.motion(3 * scale);
     const Curvature_field other = curvature_tensors(generated::moved(mesh, motion, scale));
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -294,6 +294,38 @@ BOOST_AUTO_TEST_CASE(degenerate_faces_do_not_count)
   twice.points = {Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0)};
   twice.faces = {{0, 1, 2}, {0, 2, 1}};
   for (const Curvature_tensor& t : curvature_tensors(twice).tensors) BOOST_TEST(t.maximum() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(needles_say_what_their_normals_say)
+{
+  // A cylinder of radius 1 around z, its rings so close that the squared length of an edge along z is lost beside that
+  // of one around. The corner of each face that comes first is another one each time.
+  for (double spacing : {1e-3, 1e-9, 1e-14, 1e-20, 1e-60, 1e-100, 1e-200})
+    for (std::size_t first = 0; first < 3; ++first) {
+      Flat_mesh mesh = generated::grid(
+          8, 8, [=](double u, double v) { return Vector(std::cos(u), std::sin(u), spacing * v); }, 0.);
+      for (auto& f : mesh.faces) std::rotate(f.begin(), f.begin() + std::ptrdiff_t(first), f.end());
+      std::vector<Vector> normals;
+      for (const Vector& p : mesh.points) normals.emplace_back(p.x(), p.y(), 0);
+      const Curvature_field field = curvature_tensors(mesh, normals);
+      const bool has_area = spacing > 1e-150;
+      BOOST_TEST_CONTEXT(spacing << ", " << first)
+      for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        BOOST_TEST(std::abs(field.tensors[i].minimum()) < 0.01);
+        BOOST_TEST(std::abs(field.tensors[i].maximum() - (has_area ? 1 : 0)) < 0.01);
+        BOOST_TEST((field.areas[i] > 0) == has_area);
+      }
+    }
+
+  // In the plane: right angles whose cosines are rounded to 0, as the squares of the two long edges are to equal.
+  for (double spacing : {1e-9, 1e-100, 1e-300}) {
+    const Flat_mesh mesh = generated::grid(
+        12, 12, [=](double u, double v) { return Vector(u, spacing * v, 0); }, 0.);
+    for (const Curvature_tensor& t : curvature_tensors(mesh).tensors) {
+      BOOST_TEST(t.minimum() == 0);
+      BOOST_TEST(t.maximum() == 0);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(an_average_of_noisy_tensors_is_closer_to_the_surface)

@@ -72,6 +72,14 @@ struct Curvature_tensor
     r.vv = w * t.vv;
     return r;
   }
+  friend Curvature_tensor operator/(const Curvature_tensor& t, double w)
+  {
+    Curvature_tensor r;
+    r.uu = t.uu / w;
+    r.uv = t.uv / w;
+    r.vv = t.vv / w;
+    return r;
+  }
 };
 
 // `t`, written in the frame of first vector `u` of the plane of normal n, rotated about n x m into the plane of normal
@@ -101,6 +109,30 @@ struct Curvature_field
   std::vector<double> areas;
 };
 
+// The parts of a face that are nearest to each of its corners: from the barycentric coordinates of the circumcentre,
+// cut off where that is outside (Meyer et al., "Discrete differential-geometry operators for triangulated 2-manifolds",
+// 2003). Edge i is opposite to corner i, none is null.
+inline std::array<double, 3> nearest_parts(const std::array<Vector, 3>& edge, double area)
+{
+  std::array<double, 3> length2, dot, part; // dot: of the two edges at a corner, away from it
+  for (std::size_t i = 0; i < 3; ++i) {
+    length2[i] = edge[i].squaredNorm();
+    dot[i] = -edge[(i + 1) % 3].dot(edge[(i + 2) % 3]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (dot[i] > 0) continue;
+    // dot[j] = length2[k] - dot[i], a sum of positive numbers: the dot product itself can be rounded to 0 on a needle.
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    part[j] = 0.25 * area * length2[k] / (length2[k] - dot[i]);
+    part[k] = 0.25 * area * length2[j] / (length2[j] - dot[i]);
+    part[i] = area - part[j] - part[k];
+    return part;
+  }
+  const std::array<double, 3> b = {length2[0] * dot[0], length2[1] * dot[1], length2[2] * dot[2]};
+  const double scale = 0.5 * area / (b[0] + b[1] + b[2]);
+  return {scale * (b[1] + b[2]), scale * (b[2] + b[0]), scale * (b[0] + b[1])};
+}
+
 // The curvature tensors of a mesh whose vertices have the given unit normals.
 // S. Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes", 3DPVT 2004, section 3: on each
 // face the second fundamental form that explains the differences of the normals along the three edges best (least
@@ -115,18 +147,23 @@ inline Curvature_field curvature_tensors(const Flat_mesh& mesh, std::vector<Vect
 
   for (const auto& f : mesh.faces) {
     const std::array<std::size_t, 3> corner = {std::size_t(f[0]), std::size_t(f[1]), std::size_t(f[2])};
+    // A normal is zero where faces cancel.
+    if (normals[corner[0]].isZero(0) || normals[corner[1]].isZero(0) || normals[corner[2]].isZero(0)) continue;
     // Edge i is opposite to corner i.
-    const std::array<Vector, 3> edge = {mesh.points[corner[2]] - mesh.points[corner[1]],
-                                        mesh.points[corner[0]] - mesh.points[corner[2]],
-                                        mesh.points[corner[1]] - mesh.points[corner[0]]};
+    std::array<Vector, 3> edge = {mesh.points[corner[2]] - mesh.points[corner[1]],
+                                  mesh.points[corner[0]] - mesh.points[corner[2]],
+                                  mesh.points[corner[1]] - mesh.points[corner[0]]};
+    // In units of the longest edge, as products of six lengths follow; along it, as least cancels there on a needle.
+    const double length = (std::max)({edge[0].norm(), edge[1].norm(), edge[2].norm()});
+    if (!(length > 0) || !std::isfinite(length)) continue;
+    for (Vector& e : edge) e /= length;
     const Vector cross = edge[0].cross(edge[1]);
     const double double_area = cross.norm();
-    const double length = edge[0].norm();
-    // Lengths beyond the square root of the range of double fail here, too. A normal is zero where faces cancel.
-    if (!(double_area > 0) || !std::isfinite(double_area) || !(length > 0)) continue;
-    if (normals[corner[0]].isZero(0) || normals[corner[1]].isZero(0) || normals[corner[2]].isZero(0)) continue;
+    if (!(double_area > 0)) continue;
     const Vector n = cross / double_area;
-    const Vector u = edge[0] / length;
+    const Vector u = std::max_element(edge.begin(), edge.end(), [](const Vector& e, const Vector& g) {
+                       return e.squaredNorm() < g.squaredNorm();
+                     })->normalized();
     const Vector v = n.cross(u);
 
     // Least squares of  [u_i v_i 0; 0 u_i v_i] (e, f, g)^T = (dn_i . u, dn_i . v)^T  over the edges i. Its normal
@@ -145,37 +182,14 @@ inline Curvature_field curvature_tensors(const Flat_mesh& mesh, std::vector<Vect
       r2 += ev * dv;
     }
     const double minor = 3 * double_area * double_area;
-    const double determinant = (a + c) * minor;
-    if (!(determinant > 0)) continue;
-    const double inverse = 1 / determinant;
+    const double inverse = 1 / ((a + c) * minor);
+    if (!std::isfinite(inverse)) continue;
     Curvature_tensor form;
-    form.uu = ((minor + c * c) * r0 - b * c * r1 + b * b * r2) * inverse;
-    form.uv = (a * c * r1 - b * (c * r0 + a * r2)) * inverse;
-    form.vv = ((minor + a * a) * r2 - a * b * r1 + b * b * r0) * inverse;
+    form.uu = ((minor + c * c) * r0 - b * c * r1 + b * b * r2) * inverse / length;
+    form.uv = (a * c * r1 - b * (c * r0 + a * r2)) * inverse / length;
+    form.vv = ((minor + a * a) * r2 - a * b * r1 + b * b * r0) * inverse / length;
 
-    // The circumcentre's barycentric coordinates say which part of the face is nearest to which corner (Meyer et al.,
-    // "Discrete differential-geometry operators for triangulated 2-manifolds", 2003).
-    const double area = 0.5 * double_area;
-    const double l0 = edge[0].squaredNorm(), l1 = edge[1].squaredNorm(), l2 = edge[2].squaredNorm();
-    const double b0 = l0 * (l1 + l2 - l0), b1 = l1 * (l2 + l0 - l1), b2 = l2 * (l0 + l1 - l2);
-    std::array<double, 3> part;
-    if (b0 <= 0) {
-      part[1] = -0.25 * l2 * area / edge[0].dot(edge[2]);
-      part[2] = -0.25 * l1 * area / edge[0].dot(edge[1]);
-      part[0] = area - part[1] - part[2];
-    } else if (b1 <= 0) {
-      part[2] = -0.25 * l0 * area / edge[1].dot(edge[0]);
-      part[0] = -0.25 * l2 * area / edge[1].dot(edge[2]);
-      part[1] = area - part[2] - part[0];
-    } else if (b2 <= 0) {
-      part[0] = -0.25 * l1 * area / edge[2].dot(edge[1]);
-      part[1] = -0.25 * l0 * area / edge[2].dot(edge[0]);
-      part[2] = area - part[0] - part[1];
-    } else {
-      const double scale = 0.5 * area / (b0 + b1 + b2);
-      part = {scale * (b1 + b2), scale * (b2 + b0), scale * (b0 + b1)};
-    }
-
+    const std::array<double, 3> part = nearest_parts(edge, 0.5 * double_area * length * length);
     for (std::size_t i = 0; i < 3; ++i) {
       Curvature_tensor rotated;
       if (!rotate_tensor(form, u, n, normals[corner[i]], rotated)) continue;
@@ -184,7 +198,7 @@ inline Curvature_field curvature_tensors(const Flat_mesh& mesh, std::vector<Vect
     }
   }
   for (std::size_t i = 0; i < field.tensors.size(); ++i)
-    if (field.areas[i] > 0) field.tensors[i] = (1 / field.areas[i]) * field.tensors[i];
+    if (field.areas[i] > 0) field.tensors[i] = field.tensors[i] / field.areas[i];
   field.normals = std::move(normals);
   return field;
 }
@@ -269,7 +283,7 @@ private:
       weights += weight;
     }
     if (!(weights > 0)) return false;
-    average = (1 / weights) * total;
+    average = total / weights;
     return true;
   }
 

@@ -60,12 +60,13 @@ inline std::vector<Vector> vertex_normals(const Flat_mesh& mesh)
     const Vector ab = mesh.points[b] - mesh.points[a], ac = mesh.points[c] - mesh.points[a],
                  bc = mesh.points[c] - mesh.points[b];
     const double ab2 = ab.squaredNorm(), ac2 = ac.squaredNorm(), bc2 = bc.squaredNorm();
-    const double product = ab2 * ac2 * bc2;
-    if (!(product > 0) || !std::isfinite(product)) continue;
-    const Vector n = ab.cross(ac) / product;
-    normals[a] += bc2 * n;
-    normals[b] += ac2 * n;
-    normals[c] += ab2 * n;
+    // One after the other: no product is of more than two lengths.
+    const double by_ab2 = 1 / ab2, by_ac2 = 1 / ac2, by_bc2 = 1 / bc2;
+    if (!std::isfinite(ab2 + ac2 + bc2) || !std::isfinite(by_ab2 + by_ac2 + by_bc2)) continue;
+    const Vector n = ab.cross(ac);
+    normals[a] += by_ac2 * (by_ab2 * n);
+    normals[b] += by_bc2 * (by_ab2 * n);
+    normals[c] += by_bc2 * (by_ac2 * n);
   }
   for (Vector& n : normals) n = unit_or_zero(n);
   return normals;
