@@ -112,7 +112,7 @@ public:
   void set_sensor(const Sensor<Kernel>& sensor) { m_sensor = sensor; }
 
   /// gives a cell its sample, in place of the one it may have.
-  /// \throws std::invalid_argument if the cell is outside the grid or a coordinate is NaN or infinite.
+  /// \throws std::invalid_argument if the cell is outside the grid or a coordinate is not finite or above 1e75.
   void set_sample(std::size_t column, std::size_t row, const Point_3& p)
   {
     if (column >= m_columns || row >= m_rows) throw std::invalid_argument("Range_image::set_sample: no such cell");
@@ -134,8 +134,7 @@ private:
   {
     const internal::Vector q = internal::to_vector(p);
     if (!q.allFinite()) throw std::invalid_argument("Range_image: a coordinate of points is NaN or infinite");
-    constexpr double largest = 1e75; // products of four lengths have to be numbers
-    if (q.cwiseAbs().maxCoeff() > largest)
+    if (q.cwiseAbs().maxCoeff() > internal::largest_coordinate)
       throw std::invalid_argument(
           "Range_image: a coordinate of points is above 1e75: another unit of length is needed");
   }

@@ -20,6 +20,9 @@ namespace internal {
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
+// The bounds of the coordinates and of the size of a scan: products of four lengths have to be numbers.
+inline constexpr double largest_coordinate = 1e75, smallest_size = 1e-75;
+
 // x -> rotation * x + translation. A motion called `a_from_b` maps coordinates of frame b to frame a.
 struct Rigid_motion
 {

@@ -162,9 +162,6 @@ auto mutable_vertex_point_map(Face_graph& graph, const NP& np)
   return parameter(np, internal_np::vertex_point, get_property_map(vertex_point, graph));
 }
 
-// Products of four lengths have to be numbers.
-constexpr double largest_coordinate = 1e75, smallest_size = 1e-75;
-
 inline void check_size(const std::vector<Vector>& points, const std::string& function, const std::string& argument)
 {
   if (points.empty()) return;
