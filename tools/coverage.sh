@@ -12,17 +12,12 @@ cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER=cla
   -DCMAKE_CXX_FLAGS="-O1 -DNDEBUG -fprofile-instr-generate -fcoverage-mapping" \
   ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON} \
   -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF
-root=$PWD
+. tools/test_programs.sh
 cd "$build"
-excluded='^(headers_alone|check_format|manual_.*|consumer_.*|install_.*)$'
-programs=()
-for name in $(ctest --show-only -E "$excluded" "$@" | sed -n 's/^ *Test *#[0-9]*: //p'); do
-  [ ! -e "$root/test/Crude_registration/$name.cpp" ] || programs+=("test_$name")
-done
-[ ${#programs[@]} -gt 0 ] || { echo "no program of a test is meant by: $*" >&2; exit 1; }
-ninja "${programs[@]}"
+build_test_programs "$@"
 rm -rf profiles && mkdir profiles
-LLVM_PROFILE_FILE=$PWD/profiles/%p.profraw ctest --timeout 1500 -E "$excluded" "$@" || true
+export LLVM_PROFILE_FILE=$PWD/profiles/%p.profraw
+run_test_programs "$@" || true
 llvm-profdata-14 merge -sparse profiles/*.profraw -o all.profdata
 objects=(test/"${programs[0]}")
 for program in "${programs[@]:1}"; do objects+=(-object "test/$program"); done

@@ -15,16 +15,9 @@ launcher=$(command -v ccache || true)
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
   ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON} \
   -DCRUDE_REGISTRATION_SANITIZE="$kind" -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF
-root=$PWD
+. tools/test_programs.sh
 cd "$build"
-# Only the programs of the tests that are asked for; the checks of the sources are not for a sanitizer.
-excluded='^(headers_alone|check_format|manual_.*|consumer_.*|install_.*)$'
-programs=()
-for name in $(ctest --show-only -E "$excluded" "$@" | sed -n 's/^ *Test *#[0-9]*: //p'); do
-  [ ! -e "$root/test/Crude_registration/$name.cpp" ] || programs+=("test_$name")
-done
-[ ${#programs[@]} -gt 0 ] || { echo "no program of a test is meant by: $*" >&2; exit 1; }
-ninja "${programs[@]}"
+build_test_programs "$@"
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS="suppressions=$root/tools/thread_sanitizer.supp"
-exec ctest --output-on-failure --timeout 1500 -E "$excluded" "$@"
+run_test_programs --output-on-failure "$@"
