@@ -9,9 +9,9 @@
 #include <boost/test/unit_test.hpp>
 
 #include "generated_surfaces.h"
+#include "mesh_of.h"
 
 #include <CGAL/Crude_registration/internal/Quadric_simplification.h>
-#include <CGAL/Crude_registration/internal/add_flat_mesh.h>
 #include <CGAL/Crude_registration/simplify_scan.h>
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
@@ -273,10 +273,9 @@ BOOST_AUTO_TEST_CASE(as_good_as_the_plain_path_on_cgal)
   for (double noise : {0.0, 0.002}) {
     const Flat_mesh dense = generated::bumps(120, 1, noise);
     const double s = 1.0 / 120, error = 0.15 * s * 1 / 45;
-    Mesh plain;
-    add_flat_mesh(dense, plain, parameters::default_values());
+    Mesh plain = mesh_of<Mesh>(dense);
     const std::size_t expected = CR::simplify_scan(plain, parameters::approximation_error(error));
-    const Flat_mesh expected_mesh = to_flat_mesh(plain, parameters::default_values(), "test", "mesh");
+    const Flat_mesh expected_mesh = flat_mesh_of(plain);
     const std::pair<double, double> expected_distance = distance(dense.points, expected_mesh);
     for (double cell : {0.0, 3 * s, 4 * s}) {
       Quadric_simplification simplification(dense, cell);

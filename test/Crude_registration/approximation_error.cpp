@@ -9,9 +9,10 @@
 #include <boost/test/unit_test.hpp>
 
 #include "generated_surfaces.h"
+#include "mesh_of.h"
+#include "wrong_use.h"
 
 #include <CGAL/Crude_registration/approximation_error.h>
-#include <CGAL/Crude_registration/internal/add_flat_mesh.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -31,13 +32,6 @@ using Mesh = CGAL::Surface_mesh<Point>;
 using generated::Vector;
 
 namespace {
-
-Mesh make_mesh(const CR::internal::Flat_mesh& flat)
-{
-  Mesh mesh;
-  CR::internal::add_flat_mesh(flat, mesh, parameters::default_values());
-  return mesh;
-}
 
 Vector_3 to_vector_3(const Vector& v)
 {
@@ -65,13 +59,6 @@ CR::Range_image<Kernel> bulge_image(const CR::internal::Rigid_motion& motion)
   return image;
 }
 
-struct Names
-{
-  std::string start;
-
-  bool operator()(const std::invalid_argument& e) const { return std::string(e.what()).rfind(start, 0) == 0; }
-};
-
 } // namespace
 
 BOOST_AUTO_TEST_CASE(extent_of_a_bulge_in_any_pose)
@@ -79,7 +66,7 @@ BOOST_AUTO_TEST_CASE(extent_of_a_bulge_in_any_pose)
   generated::Random random(1);
   for (int i = 0; i < 5; ++i) {
     const auto motion = i == 0 ? CR::internal::Rigid_motion() : random.motion(50);
-    const Mesh mesh = make_mesh(generated::moved(bulge(), motion));
+    const Mesh mesh = mesh_of<Mesh>(generated::moved(bulge(), motion));
     for (const CR::Scan_extent& e :
          {CR::scan_extent(mesh),
           CR::scan_extent(mesh, parameters::viewing_direction(to_vector_3(motion.rotation * Vector(0, 0, -2))))}) {
@@ -142,14 +129,14 @@ BOOST_AUTO_TEST_CASE(range_images_that_say_little)
 
 BOOST_AUTO_TEST_CASE(seen_from_the_side)
 {
-  const CR::Scan_extent e = CR::scan_extent(make_mesh(bulge()), parameters::viewing_direction(Vector_3(1, 0, 0)));
+  const CR::Scan_extent e = CR::scan_extent(mesh_of<Mesh>(bulge()), parameters::viewing_direction(Vector_3(1, 0, 0)));
   BOOST_TEST(e.depth == 4, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(e.image_size() == 2, boost::test_tools::tolerance(1e-2));
 }
 
 BOOST_AUTO_TEST_CASE(vertices_without_faces_do_not_count)
 {
-  Mesh mesh = make_mesh(bulge());
+  Mesh mesh = mesh_of<Mesh>(bulge());
   mesh.add_vertex(Point(100, 100, 100));
   BOOST_TEST(CR::scan_extent(mesh).image_size() == 4, boost::test_tools::tolerance(1e-3));
 }
@@ -157,7 +144,7 @@ BOOST_AUTO_TEST_CASE(vertices_without_faces_do_not_count)
 BOOST_AUTO_TEST_CASE(the_formula)
 {
   const auto flat = bulge();
-  const Mesh mesh = make_mesh(flat);
+  const Mesh mesh = mesh_of<Mesh>(flat);
   Mesh copy = mesh;
   auto types = copy.add_property_map<Mesh::Vertex_index, CR::Surface_type>("v:type").first;
   const double smooth = CR::surface_types(copy, types).percent_smooth();
@@ -173,10 +160,10 @@ BOOST_AUTO_TEST_CASE(it_moves_with_the_scan_and_is_a_length_squared)
 {
   generated::Random random(2);
   const auto flat = generated::bumps(30, 1, 0.001);
-  const double expected = CR::approximation_error(make_mesh(flat));
+  const double expected = CR::approximation_error(mesh_of<Mesh>(flat));
   BOOST_TEST(expected > 0);
   for (double scale : {1e-3, 0.3048, 1.0, 1e3})
-    BOOST_TEST(CR::approximation_error(make_mesh(generated::moved(flat, random.motion(10 * scale), scale))) ==
+    BOOST_TEST(CR::approximation_error(mesh_of<Mesh>(generated::moved(flat, random.motion(10 * scale), scale))) ==
                    scale * scale * expected,
                boost::test_tools::tolerance(1e-9));
 }
@@ -185,8 +172,8 @@ BOOST_AUTO_TEST_CASE(a_saddle_has_a_finite_error)
 {
   const auto saddle = generated::grid(
       20, 20, [](double u, double v) { return Vector(u, v, (u - 0.5) * (u - 0.5) - (v - 0.5) * (v - 0.5)); });
-  const double error = CR::approximation_error(make_mesh(saddle), parameters::sampling_distance(0.05));
-  BOOST_TEST(error == 0.15 * 0.05 * CR::scan_extent(make_mesh(saddle)).image_size(),
+  const double error = CR::approximation_error(mesh_of<Mesh>(saddle), parameters::sampling_distance(0.05));
+  BOOST_TEST(error == 0.15 * 0.05 * CR::scan_extent(mesh_of<Mesh>(saddle)).image_size(),
              boost::test_tools::tolerance(1e-12));
 }
 
@@ -194,13 +181,13 @@ BOOST_AUTO_TEST_CASE(empty_and_wrong)
 {
   BOOST_TEST(CR::scan_extent(Mesh()).mean() == 0);
   BOOST_TEST(CR::approximation_error(Mesh()) == 0);
-  const Mesh mesh = make_mesh(bulge());
+  const Mesh mesh = mesh_of<Mesh>(bulge());
   for (double bad : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     BOOST_CHECK_EXCEPTION(CR::approximation_error(mesh, parameters::sampling_distance(bad)), std::invalid_argument,
-                          Names{"approximation_error: sampling_distance"});
+                          names("approximation_error: sampling_distance"));
   BOOST_CHECK_EXCEPTION(CR::scan_extent(mesh, parameters::viewing_direction(Vector_3(0, 0, 0))), std::invalid_argument,
-                        Names{"scan_extent: viewing_direction"});
+                        names("scan_extent: viewing_direction"));
   BOOST_CHECK_EXCEPTION(
       CR::scan_extent(mesh, parameters::viewpoint(Point(0, std::numeric_limits<double>::quiet_NaN(), 0))),
-      std::invalid_argument, Names{"scan_extent: viewpoint"});
+      std::invalid_argument, names("scan_extent: viewpoint"));
 }

@@ -1,12 +1,9 @@
 #define BOOST_TEST_MODULE degenerate_input
 #include <boost/test/unit_test.hpp>
 
-#include "generated_surfaces.h"
+#include "registration_checks.h"
 
 #include <CGAL/Crude_registration.h>
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,21 +18,6 @@
 
 // Everything that a mesh, a range image or a set of points can have wrong, through every public function: the answer is
 // sound, or an exception names the function and the argument.
-
-namespace CR = CGAL::Crude_registration;
-namespace p = CR::parameters;
-using CR::internal::Flat_mesh;
-using CR::internal::Matrix;
-using CR::internal::Rigid_motion;
-using CR::internal::to_rigid_motion;
-using CR::internal::Vector;
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
-using Scan = CR::Scan<Kernel>;
-using Image = CR::Range_image<Kernel>;
-using Sensor = CR::Sensor<Kernel>;
 
 namespace {
 
@@ -197,34 +179,15 @@ const Mesh& good_mesh()
   return mesh;
 }
 
-bool is_rigid(const CGAL::Aff_transformation_3<Kernel>& transformation)
-{
-  const Rigid_motion m = to_rigid_motion(transformation);
-  return m.translation.allFinite() && (m.rotation * m.rotation.transpose() - Matrix::Identity()).norm() < 1e-9 &&
-         std::abs(m.rotation.determinant() - 1) < 1e-9;
-}
-
 bool is_finite(const Point& q)
 {
   return std::isfinite(q.x()) && std::isfinite(q.y()) && std::isfinite(q.z());
 }
 
-bool is_sound(const CR::Registration_result<Kernel>& result)
+bool is_sound(const Result& result)
 {
-  for (const auto& other : result.runners_up()) {
-    BOOST_TEST(is_rigid(other.transformation));
-    BOOST_TEST(std::isfinite(other.score));
-  }
-  BOOST_TEST(is_rigid(result.transformation()));
-  BOOST_TEST(is_rigid(result.crude_transformation()));
-  BOOST_TEST(is_rigid(result.inverse_transformation()));
-  BOOST_TEST(result.confidence() >= 0);
-  BOOST_TEST(result.confidence() <= 1);
-  BOOST_TEST(!result.covariance().hasNaN(), result.status() << ", " << result.reason());
-  BOOST_TEST(std::isfinite(result.overlap()));
-  BOOST_TEST(std::isfinite(result.residual()));
-  BOOST_TEST(std::isfinite(result.score()));
-  return (result.status() == CR::REGISTERED) == result.reason().empty();
+  check_sound(result);
+  return true;
 }
 
 bool is_sound(const Mesh& mesh)

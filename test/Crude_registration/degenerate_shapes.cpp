@@ -1,11 +1,7 @@
 #define BOOST_TEST_MODULE degenerate_shapes
 #include <boost/test/unit_test.hpp>
 
-#include "generated_surfaces.h"
-
-#include <CGAL/Crude_registration/register_scans.h>
-
-#include <CGAL/Surface_mesh.h>
+#include "registration_checks.h"
 
 #include <cmath>
 #include <cstddef>
@@ -17,17 +13,7 @@
 
 // Shapes that more than one motion maps to themselves: what is asked for has no answer, and registration has to say so.
 
-namespace CR = CGAL::Crude_registration;
-using CR::internal::Flat_mesh;
-using CR::internal::Rigid_motion;
-using CR::internal::Vector;
-using generated::pi;
 using generated::Random;
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Scan = CR::Scan<Kernel>;
-using Result = CR::Registration_result<Kernel>;
 
 namespace {
 
@@ -36,9 +22,7 @@ using Shape = std::function<Flat_mesh(unsigned seed)>;
 
 Scan prepared(const Flat_mesh& flat)
 {
-  Mesh mesh;
-  CR::internal::add_flat_mesh(flat, mesh, CR::parameters::default_values());
-  return Scan(mesh);
+  return Scan(mesh_of(flat));
 }
 
 Flat_mesh noisy(Flat_mesh mesh, double noise, unsigned seed)
@@ -47,15 +31,6 @@ Flat_mesh noisy(Flat_mesh mesh, double noise, unsigned seed)
   if (noise > 0)
     for (Vector& p : mesh.points) p += noise * random.vector();
   return mesh;
-}
-
-void check_proper(const Result& result)
-{
-  const CR::internal::Matrix r = CR::internal::to_rigid_motion(result.transformation()).rotation;
-  BOOST_TEST((r * r.transpose() - CR::internal::Matrix::Identity()).norm() < 1e-9);
-  BOOST_TEST(std::abs(r.determinant() - 1) < 1e-9);
-  BOOST_TEST(result.confidence() >= 0);
-  BOOST_TEST(result.confidence() <= 1);
 }
 
 std::string said(const Result& result)
@@ -77,7 +52,7 @@ Result registered(const Shape& shape, double noise, const Rigid_motion& motion)
 
 void check_ambiguous(const Result& result)
 {
-  check_proper(result);
+  check_sound(result);
   BOOST_TEST_MESSAGE(said(result));
   BOOST_TEST(result.status() == CR::AMBIGUOUS, said(result));
 }
@@ -268,8 +243,8 @@ BOOST_AUTO_TEST_CASE(similar_shapes_without_symmetry_are_registered)
       const Result result = registered(shape, noise, motion);
       check_proper(result);
       BOOST_TEST(result.status() == CR::REGISTERED, said(result));
-      const Rigid_motion error = CR::internal::to_rigid_motion(result.transformation()) * motion;
-      BOOST_TEST((error.rotation - CR::internal::Matrix::Identity()).norm() < 0.02);
+      const Rigid_motion error = to_rigid_motion(result.transformation()) * motion;
+      BOOST_TEST((error.rotation - Matrix::Identity()).norm() < 0.02);
       BOOST_TEST(error.translation.norm() < 0.02);
     }
 }

@@ -8,6 +8,8 @@
 #define BOOST_TEST_MODULE make_statue
 #include <boost/test/unit_test.hpp>
 
+#include "mesh_of.h"
+
 #include <CGAL/Crude_registration/make_statue.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 
@@ -36,11 +38,6 @@ Mesh statue(int resolution, unsigned int seed)
   return mesh;
 }
 
-Flat_mesh flat(const Mesh& mesh)
-{
-  return CR::internal::to_flat_mesh(mesh, CGAL::parameters::default_values(), "", "");
-}
-
 } // namespace
 
 BOOST_AUTO_TEST_CASE(is_closed_connected_and_oriented_outwards)
@@ -52,7 +49,7 @@ BOOST_AUTO_TEST_CASE(is_closed_connected_and_oriented_outwards)
       BOOST_TEST(CGAL::is_triangle_mesh(mesh));
       BOOST_TEST(CGAL::is_closed(mesh));
       BOOST_TEST(mesh.is_valid());
-      const Flat_mesh f = flat(mesh);
+      const Flat_mesh f = flat_mesh_of(mesh);
       BOOST_TEST(CR::internal::largest_component(f).points.size() == f.points.size());
       double volume = 0;
       for (const auto& t : f.faces) volume += f.points[std::size_t(t[0])].dot(CR::internal::area_vector(f, t)) / 6;
@@ -77,7 +74,7 @@ BOOST_AUTO_TEST_CASE(has_no_symmetry)
   for (unsigned int seed = 0; seed < 12; ++seed) {
     BOOST_TEST_CONTEXT("seed " << seed)
     {
-      const Flat_mesh f = flat(statue(32, seed));
+      const Flat_mesh f = flat_mesh_of(statue(32, seed));
       double area = 0;
       Vector center = Vector::Zero();
       std::vector<std::pair<Vector, double>> pieces;
@@ -109,9 +106,9 @@ BOOST_AUTO_TEST_CASE(has_no_symmetry)
 BOOST_AUTO_TEST_CASE(is_reproducible_and_differs_between_seeds)
 {
   const Mesh a = statue(24, 3), b = statue(24, 3), c = statue(24, 4);
-  BOOST_TEST(flat(a).points == flat(b).points);
-  BOOST_TEST((flat(a).faces == flat(b).faces));
-  BOOST_TEST(flat(a).points != flat(c).points);
+  BOOST_TEST(flat_mesh_of(a).points == flat_mesh_of(b).points);
+  BOOST_TEST((flat_mesh_of(a).faces == flat_mesh_of(b).faces));
+  BOOST_TEST(flat_mesh_of(a).points != flat_mesh_of(c).points);
 }
 
 BOOST_AUTO_TEST_CASE(refines_the_same_body)
@@ -122,7 +119,7 @@ BOOST_AUTO_TEST_CASE(refines_the_same_body)
   const CR::internal::Statue body(5);
   for (const auto& [mesh, share] : {std::pair(&coarse, 0.05), std::pair(&fine, 0.01)}) {
     int off = 0;
-    for (const Vector& p : flat(*mesh).points) off += std::abs(body(p)) > 0.01;
+    for (const Vector& p : flat_mesh_of(*mesh).points) off += std::abs(body(p)) > 0.01;
     BOOST_TEST(off < share * static_cast<double>(mesh->number_of_vertices()));
   }
 }

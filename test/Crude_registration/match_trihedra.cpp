@@ -14,17 +14,17 @@
 #include <CGAL/Surface_mesh.h>
 
 #include "generated_surfaces.h"
+#include "mesh_of.h"
+#include "wrong_use.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -45,15 +45,6 @@ namespace {
 
 // Correspondence of a trihedron: its position and the vertices of D.
 using Match = std::array<std::int32_t, 5>;
-
-Mesh to_surface_mesh(const Flat_mesh& flat)
-{
-  Mesh mesh;
-  std::vector<Mesh::Vertex_index> v;
-  for (const Vector& p : flat.points) v.push_back(mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
-  for (const auto& f : flat.faces) mesh.add_face(v[std::size_t(f[0])], v[std::size_t(f[1])], v[std::size_t(f[2])]);
-  return mesh;
-}
 
 Matching_vertices described(const Flat_mesh& mesh)
 {
@@ -195,18 +186,6 @@ Flat_mesh mirrored(Flat_mesh mesh)
   return mesh;
 }
 
-bool says(const std::function<void()>& call, const std::string& word)
-{
-  try {
-    call();
-  } catch (const std::invalid_argument& e) {
-    const std::string what = e.what();
-    BOOST_TEST_MESSAGE(what);
-    return what.compare(0, 15, "match_trihedra:") == 0 && what.find(word) != std::string::npos;
-  }
-  return false;
-}
-
 double displacement(const Flat_mesh& mesh, const Rigid_motion& a, const Rigid_motion& b)
 {
   double largest = 0;
@@ -224,7 +203,7 @@ template <class NamedParameters>
 std::vector<CR::Trihedron_match<Kernel>> sorted_matches(const Flat_mesh& s, const Flat_mesh& d,
                                                         const NamedParameters& np)
 {
-  const auto found = CR::match_trihedra(to_surface_mesh(s), to_surface_mesh(d), np);
+  const auto found = CR::match_trihedra(mesh_of<Mesh>(s), mesh_of<Mesh>(d), np);
   for (std::size_t i = 1; i < found.size(); ++i) BOOST_TEST(found[i - 1].source.origin <= found[i].source.origin);
   std::map<Match, std::size_t> order;
   for (std::size_t i = 0; i < found.size(); ++i) order[indices(found[i])] = i;
@@ -364,7 +343,7 @@ BOOST_AUTO_TEST_CASE(of_meshes_in_any_frame_unit_and_order)
 BOOST_AUTO_TEST_CASE(normals_and_curvatures_are_those_given)
 {
   const Flat_mesh flat = generated::bumps(10);
-  Mesh mesh = to_surface_mesh(flat);
+  Mesh mesh = mesh_of<Mesh>(flat);
   const Matching_vertices v = described(flat);
   auto normals = mesh.add_property_map<Mesh::Vertex_index, Kernel::Vector_3>("v:given_normal").first;
   auto curvatures = mesh.add_property_map<Mesh::Vertex_index, CR::Principal_curvatures<Kernel>>("v:given").first;
@@ -403,49 +382,50 @@ BOOST_AUTO_TEST_CASE(normals_and_curvatures_are_those_given)
 BOOST_AUTO_TEST_CASE(wrong_use_is_named)
 {
   namespace P = CR::parameters;
-  const Mesh mesh = to_surface_mesh(generated::bumps(6)), empty;
+  const Mesh mesh = mesh_of<Mesh>(generated::bumps(6)), empty;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto call = [&mesh](auto np) { return [&mesh, np] { CR::match_trihedra(mesh, mesh, np); }; };
-  BOOST_TEST(says(call(P::minimum_extent(0.4).maximum_extent(0.3)), "minimum_extent"));
-  BOOST_TEST(says(call(P::minimum_extent(0.3).maximum_extent(0.3)), "minimum_extent"));
-  BOOST_TEST(says(call(P::minimum_extent(-0.1)), "minimum_extent"));
-  BOOST_TEST(says(call(P::minimum_extent(nan)), "minimum_extent"));
-  BOOST_TEST(says(call(P::maximum_extent(nan)), "maximum_extent"));
-  BOOST_TEST(says(call(P::maximum_extent(0.)), "maximum_extent"));
+  BOOST_TEST(is_refused(call(P::minimum_extent(0.4).maximum_extent(0.3)), "match_trihedra:", "minimum_extent"));
+  BOOST_TEST(is_refused(call(P::minimum_extent(0.3).maximum_extent(0.3)), "match_trihedra:", "minimum_extent"));
+  BOOST_TEST(is_refused(call(P::minimum_extent(-0.1)), "match_trihedra:", "minimum_extent"));
+  BOOST_TEST(is_refused(call(P::minimum_extent(nan)), "match_trihedra:", "minimum_extent"));
+  BOOST_TEST(is_refused(call(P::maximum_extent(nan)), "match_trihedra:", "maximum_extent"));
+  BOOST_TEST(is_refused(call(P::maximum_extent(0.)), "match_trihedra:", "maximum_extent"));
   for (double t : {0., -1., nan, std::numeric_limits<double>::infinity()})
-    BOOST_TEST(says(call(P::tolerance(t)), "tolerance"));
+    BOOST_TEST(is_refused(call(P::tolerance(t)), "match_trihedra:", "tolerance"));
 
-  BOOST_TEST(says([&] { CR::match_trihedra(empty, mesh); }, "source"));
-  BOOST_TEST(says([&] { CR::match_trihedra(mesh, empty); }, "target"));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(empty, mesh); }, "match_trihedra:", "source"));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(mesh, empty); }, "match_trihedra:", "target"));
   // All of its vertices are on the border; as a target it would do.
-  const Mesh strip = to_surface_mesh(generated::bumps(1));
-  BOOST_TEST(says([&] { CR::match_trihedra(strip, mesh); }, "source"));
+  const Mesh strip = mesh_of<Mesh>(generated::bumps(1));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(strip, mesh); }, "match_trihedra:", "source"));
   BOOST_CHECK_NO_THROW(CR::match_trihedra(mesh, strip));
   Mesh triangle;
   triangle.add_face(triangle.add_vertex(Kernel::Point_3(0, 0, 0)), triangle.add_vertex(Kernel::Point_3(1, 0, 0)),
                     triangle.add_vertex(Kernel::Point_3(0, 1, 0)));
-  BOOST_TEST(says([&] { CR::match_trihedra(mesh, triangle); }, "target"));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(mesh, triangle); }, "match_trihedra:", "target"));
 
   Mesh broken = mesh;
   broken.point(*broken.vertices().begin()) = Kernel::Point_3(0, nan, 0);
-  BOOST_TEST(says([&] { CR::match_trihedra(broken, mesh); }, "source"));
-  BOOST_TEST(says([&] { CR::match_trihedra(mesh, broken); }, "target"));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(broken, mesh); }, "match_trihedra:", "source"));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(mesh, broken); }, "match_trihedra:", "target"));
   Mesh quad;
   quad.add_face(quad.add_vertex(Kernel::Point_3(0, 0, 0)), quad.add_vertex(Kernel::Point_3(1, 0, 0)),
                 quad.add_vertex(Kernel::Point_3(1, 1, 0)), quad.add_vertex(Kernel::Point_3(0, 1, 0)));
-  BOOST_TEST(says([&] { CR::match_trihedra(quad, mesh); }, "not a triangle"));
-  BOOST_TEST(says([&] { CR::match_trihedra(mesh, quad); }, "not a triangle"));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(quad, mesh); }, "match_trihedra:", "not a triangle"));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(mesh, quad); }, "match_trihedra:", "not a triangle"));
 
   Mesh described_wrongly = mesh;
   auto normals = described_wrongly.add_property_map<Mesh::Vertex_index, Kernel::Vector_3>("v:n").first;
   for (const auto v : described_wrongly.vertices()) normals[v] = Kernel::Vector_3(0, 0, nan);
-  BOOST_TEST(says([&] { CR::match_trihedra(described_wrongly, mesh, P::vertex_normal_map(normals)); }, "a normal"));
+  BOOST_TEST(is_refused([&] { CR::match_trihedra(described_wrongly, mesh, P::vertex_normal_map(normals)); },
+                        "match_trihedra:", "a normal"));
   auto curvatures =
       described_wrongly.add_property_map<Mesh::Vertex_index, CR::Principal_curvatures<Kernel>>("v:k").first;
   for (const auto v : described_wrongly.vertices()) curvatures[v].maximum = nan;
-  BOOST_TEST(
-      says([&] { CR::match_trihedra(mesh, described_wrongly, P::default_values(), P::curvature_map(curvatures)); },
-           "curvature"));
+  BOOST_TEST(is_refused(
+      [&] { CR::match_trihedra(mesh, described_wrongly, P::default_values(), P::curvature_map(curvatures)); },
+      "match_trihedra:", "curvature"));
 }
 
 BOOST_AUTO_TEST_CASE(vertices_are_described_by_the_dense_surface)

@@ -9,6 +9,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "generated_surfaces.h"
+#include "wrong_use.h"
 
 #include <CGAL/Crude_registration/internal/add_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
@@ -32,21 +33,6 @@ using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using Polyhedron = CGAL::Polyhedron_3<Kernel>;
 namespace parameters = CGAL::Crude_registration::parameters;
-
-namespace {
-
-struct Names
-{
-  std::string start, argument;
-
-  bool operator()(const std::invalid_argument& e) const
-  {
-    BOOST_TEST_MESSAGE(e.what());
-    return std::string(e.what()).rfind(start, 0) == 0 && std::string(e.what()).find(argument) != std::string::npos;
-  }
-};
-
-} // namespace
 
 BOOST_AUTO_TEST_CASE(vertex_normals_of_a_sphere_are_exact_however_it_is_triangulated)
 {
@@ -194,12 +180,12 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_with_a_mesh_is_named)
   quad.add_face(quad.add_vertex(Point(0, 0, 0)), quad.add_vertex(Point(1, 0, 0)), quad.add_vertex(Point(1, 1, 0)),
                 quad.add_vertex(Point(0, 1, 0)));
   BOOST_CHECK_EXCEPTION(to_flat_mesh(quad, parameters::default_values(), "some_function", "source"),
-                        std::invalid_argument, (Names{"some_function: face 0 of source", "triangle"}));
+                        std::invalid_argument, names("some_function: face 0 of source", "triangle"));
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Mesh mesh;
     add_flat_mesh(generated::bumps(3), mesh, parameters::default_values());
     mesh.point(Mesh::Vertex_index(5)) = Point(0, bad, 0);
     BOOST_CHECK_EXCEPTION(to_flat_mesh(mesh, parameters::default_values(), "some_function", "target"),
-                          std::invalid_argument, (Names{"some_function: vertex 5 of target", "finite"}));
+                          std::invalid_argument, names("some_function: vertex 5 of target", "finite"));
   }
 }

@@ -9,8 +9,9 @@
 #include <boost/test/unit_test.hpp>
 
 #include "generated_surfaces.h"
+#include "mesh_of.h"
+#include "wrong_use.h"
 
-#include <CGAL/Crude_registration/internal/add_flat_mesh.h>
 #include <CGAL/Crude_registration/principal_curvatures.h>
 
 #include <CGAL/Polyhedron_3.h>
@@ -52,35 +53,17 @@ struct Result
   }
 };
 
-Mesh make_mesh(const CR::internal::Flat_mesh& flat)
-{
-  Mesh mesh;
-  CR::internal::add_flat_mesh(flat, mesh, parameters::default_values());
-  return mesh;
-}
-
 double length(const Vector_3& v)
 {
   return std::sqrt(v.squared_length());
 }
-
-// What a message has to start with and to name.
-struct Names
-{
-  std::string start, what;
-
-  bool operator()(const std::invalid_argument& e) const
-  {
-    return std::string(e.what()).rfind(start, 0) == 0 && std::string(e.what()).find(what) != std::string::npos;
-  }
-};
 
 } // namespace
 
 BOOST_AUTO_TEST_CASE(torus_curvatures_and_directions)
 {
   const double R = 3, r = 1;
-  const Mesh mesh = make_mesh(generated::torus(180, 60, R, r, 0));
+  const Mesh mesh = mesh_of<Mesh>(generated::torus(180, 60, R, r, 0));
   const Result<Mesh> result(mesh);
   BOOST_TEST(result.curvatures.size() == mesh.number_of_vertices());
   for (Mesh::Vertex_index v : mesh.vertices()) {
@@ -101,18 +84,15 @@ BOOST_AUTO_TEST_CASE(torus_curvatures_and_directions)
 BOOST_AUTO_TEST_CASE(every_face_graph_gives_the_same)
 {
   const CR::internal::Flat_mesh flat = generated::bumps(12);
-  const Mesh mesh = make_mesh(flat);
+  const Mesh mesh = mesh_of<Mesh>(flat);
   const Result<Mesh> expected(mesh);
 
   using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   using Polyhedron_with_id = CGAL::Polyhedron_3<Kernel, CGAL::Polyhedron_items_with_id_3>;
   using Float_mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>;
-  Polyhedron polyhedron;
-  CR::internal::add_flat_mesh(flat, polyhedron, parameters::default_values());
-  Polyhedron_with_id polyhedron_with_id;
-  CR::internal::add_flat_mesh(flat, polyhedron_with_id, parameters::default_values());
-  Float_mesh float_mesh;
-  CR::internal::add_flat_mesh(flat, float_mesh, parameters::default_values());
+  const auto polyhedron = mesh_of<Polyhedron>(flat);
+  const auto polyhedron_with_id = mesh_of<Polyhedron_with_id>(flat);
+  const auto float_mesh = mesh_of<Float_mesh>(flat);
 
   const auto check = [&](const auto& other, double tolerance) {
     const Result<std::decay_t<decltype(other)>> result(other);
@@ -131,7 +111,7 @@ BOOST_AUTO_TEST_CASE(every_face_graph_gives_the_same)
 
 BOOST_AUTO_TEST_CASE(the_vertex_point_map_is_read)
 {
-  Mesh mesh = make_mesh(generated::sphere(6, 1));
+  Mesh mesh = mesh_of<Mesh>(generated::sphere(6, 1));
   auto map = mesh.add_property_map<Mesh::Vertex_index, Point>("v:larger").first;
   for (Mesh::Vertex_index v : mesh.vertices())
     map[v] = Point(4 * mesh.point(v).x(), 4 * mesh.point(v).y(), 4 * mesh.point(v).z());
@@ -142,8 +122,8 @@ BOOST_AUTO_TEST_CASE(the_vertex_point_map_is_read)
 BOOST_AUTO_TEST_CASE(averages_over_a_radius_are_smoother)
 {
   generated::Random random(4);
-  const Mesh mesh =
-      make_mesh(generated::grid(40, 40, [&](double u, double v) { return Vector(u, v, 0.001 * random.symmetric()); }));
+  const Mesh mesh = mesh_of<Mesh>(
+      generated::grid(40, 40, [&](double u, double v) { return Vector(u, v, 0.001 * random.symmetric()); }));
   double plain = 0, averaged = 0;
   for (const auto& k : Result<Mesh>(mesh).curvatures) plain += std::abs(k.second.maximum);
   for (const auto& k : Result<Mesh>(mesh, CGAL::parameters::neighbor_radius(0.2)).curvatures)
@@ -153,7 +133,7 @@ BOOST_AUTO_TEST_CASE(averages_over_a_radius_are_smoother)
 
 BOOST_AUTO_TEST_CASE(vertices_without_faces_have_none)
 {
-  Mesh mesh = make_mesh(generated::sphere(4, 1));
+  Mesh mesh = mesh_of<Mesh>(generated::sphere(4, 1));
   const Mesh::Vertex_index isolated = mesh.add_vertex(Point(3, 3, 3));
   const Result<Mesh> result(mesh);
   BOOST_TEST(result.curvatures.at(isolated).maximum == 0);
@@ -167,9 +147,9 @@ BOOST_AUTO_TEST_CASE(wrong_use_is_named)
   Mesh quad;
   quad.add_face(quad.add_vertex(Point(0, 0, 0)), quad.add_vertex(Point(1, 0, 0)), quad.add_vertex(Point(1, 1, 0)),
                 quad.add_vertex(Point(0, 1, 0)));
-  BOOST_CHECK_EXCEPTION(Result<Mesh>{quad}, std::invalid_argument, (Names{"principal_curvatures: ", "mesh"}));
-  const Mesh mesh = make_mesh(generated::sphere(4, 1));
+  BOOST_CHECK_EXCEPTION(Result<Mesh>{quad}, std::invalid_argument, names("principal_curvatures: ", "mesh"));
+  const Mesh mesh = mesh_of<Mesh>(generated::sphere(4, 1));
   for (double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     BOOST_CHECK_EXCEPTION(Result<Mesh>(mesh, CGAL::parameters::neighbor_radius(bad)), std::invalid_argument,
-                          (Names{"principal_curvatures: ", "neighbor_radius"}));
+                          names("principal_curvatures: ", "neighbor_radius"));
 }

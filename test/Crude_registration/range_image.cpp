@@ -9,11 +9,11 @@
 #include <boost/test/unit_test.hpp>
 
 #include "range_images.h"
+#include "wrong_use.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 using namespace generated;
@@ -22,19 +22,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-// Does f throw std::invalid_argument, with `text` in what it says?
-template <class Function>
-bool is_refused(const Function& f, const std::string& text)
-{
-  try {
-    f();
-  } catch (const std::invalid_argument& error) {
-    BOOST_TEST_MESSAGE(error.what());
-    return std::string(error.what()).find(text) != std::string::npos;
-  }
-  return false;
-}
 
 double bowl(double x, double y)
 {
@@ -47,9 +34,9 @@ BOOST_AUTO_TEST_CASE(the_sensor_of_no_argument_is_unknown)
 {
   const Sensor sensor;
   BOOST_TEST(!sensor.is_known());
-  BOOST_TEST(is_refused([&] { sensor.viewpoint(); }, "viewpoint"));
-  BOOST_TEST(is_refused([&] { sensor.viewing_direction(); }, "viewing_direction"));
-  BOOST_TEST(is_refused([&] { sensor.line_of_sight(Point(1, 2, 3)); }, "unknown"));
+  BOOST_TEST(is_refused([&] { sensor.viewpoint(); }, "Sensor::", "viewpoint"));
+  BOOST_TEST(is_refused([&] { sensor.viewing_direction(); }, "Sensor::", "viewing_direction"));
+  BOOST_TEST(is_refused([&] { sensor.line_of_sight(Point(1, 2, 3)); }, "Sensor::", "unknown"));
   BOOST_TEST(!sensor.transformed(aff(Random(1).motion(1))).is_known());
 }
 
@@ -69,11 +56,13 @@ BOOST_AUTO_TEST_CASE(lines_of_sight_have_length_1_whatever_the_unit)
 
 BOOST_AUTO_TEST_CASE(sensors_that_make_no_sense_are_refused)
 {
-  BOOST_TEST(is_refused([] { Sensor::orthographic(CGAL::NULL_VECTOR); }, "viewing_direction"));
-  BOOST_TEST(is_refused([] { Sensor::orthographic(Kernel::Vector_3(0, not_a_number, 1)); }, "viewing_direction"));
-  BOOST_TEST(is_refused([] { Sensor::orthographic(Kernel::Vector_3(0, infinity, 1)); }, "viewing_direction"));
-  BOOST_TEST(is_refused([] { Sensor::perspective(Point(0, not_a_number, 1)); }, "viewpoint"));
-  BOOST_TEST(is_refused([] { Sensor::perspective(Point(0, -infinity, 1)); }, "viewpoint"));
+  BOOST_TEST(is_refused([] { Sensor::orthographic(CGAL::NULL_VECTOR); }, "Sensor::", "viewing_direction"));
+  BOOST_TEST(
+      is_refused([] { Sensor::orthographic(Kernel::Vector_3(0, not_a_number, 1)); }, "Sensor::", "viewing_direction"));
+  BOOST_TEST(
+      is_refused([] { Sensor::orthographic(Kernel::Vector_3(0, infinity, 1)); }, "Sensor::", "viewing_direction"));
+  BOOST_TEST(is_refused([] { Sensor::perspective(Point(0, not_a_number, 1)); }, "Sensor::", "viewpoint"));
+  BOOST_TEST(is_refused([] { Sensor::perspective(Point(0, -infinity, 1)); }, "Sensor::", "viewpoint"));
 }
 
 BOOST_AUTO_TEST_CASE(a_sensor_moves_with_the_points)
@@ -114,19 +103,19 @@ BOOST_AUTO_TEST_CASE(images_that_make_no_sense_are_refused)
   const std::vector<Point> points = {Point(0, 0, 0), Point(1, 0, 0)};
   BOOST_CHECK_NO_THROW(Image(2, 2, points, {0, 1, -1, -1}));
   BOOST_CHECK_NO_THROW(Image(0, 7, {}, {}));
-  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, 1, -1}); }, "size of grid"));
-  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, 1, -1, -1, -1}); }, "size of grid"));
-  BOOST_TEST(is_refused([&] { Image(0, 2, points, {0}); }, "size of grid"));
-  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, 2, -1, -1}); }, "index 2"));
-  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, -2, -1, -1}); }, "index -2"));
-  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, 1, 0, -1}); }, "index 0 twice"));
-  BOOST_TEST(is_refused([&] { Image(1, 1, {Point(0, not_a_number, 0)}, {0}); }, "points"));
-  BOOST_TEST(is_refused([&] { Image(1, 1, {Point(0, 0, -infinity)}, {0}); }, "points"));
-  BOOST_TEST(is_refused([&] { Image(1u << 20, 1u << 20); }, "2^31"));
-  BOOST_TEST(is_refused([&] { Image(std::numeric_limits<std::size_t>::max(), 2); }, "2^31"));
-  BOOST_TEST(is_refused([&] { Image(2, 2).set_sample(2, 0, Point(0, 0, 0)); }, "set_sample"));
-  BOOST_TEST(is_refused([&] { Image(2, 2).set_sample(0, 2, Point(0, 0, 0)); }, "set_sample"));
-  BOOST_TEST(is_refused([&] { Image(2, 2).set_sample(0, 0, Point(not_a_number, 0, 0)); }, "NaN"));
+  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, 1, -1}); }, "Range_image", "size of grid"));
+  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, 1, -1, -1, -1}); }, "Range_image", "size of grid"));
+  BOOST_TEST(is_refused([&] { Image(0, 2, points, {0}); }, "Range_image", "size of grid"));
+  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, 2, -1, -1}); }, "Range_image", "index 2"));
+  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, -2, -1, -1}); }, "Range_image", "index -2"));
+  BOOST_TEST(is_refused([&] { Image(2, 2, points, {0, 1, 0, -1}); }, "Range_image", "index 0 twice"));
+  BOOST_TEST(is_refused([&] { Image(1, 1, {Point(0, not_a_number, 0)}, {0}); }, "Range_image", "points"));
+  BOOST_TEST(is_refused([&] { Image(1, 1, {Point(0, 0, -infinity)}, {0}); }, "Range_image", "points"));
+  BOOST_TEST(is_refused([&] { Image(1u << 20, 1u << 20); }, "Range_image", "2^31"));
+  BOOST_TEST(is_refused([&] { Image(std::numeric_limits<std::size_t>::max(), 2); }, "Range_image", "2^31"));
+  BOOST_TEST(is_refused([&] { Image(2, 2).set_sample(2, 0, Point(0, 0, 0)); }, "Range_image", "set_sample"));
+  BOOST_TEST(is_refused([&] { Image(2, 2).set_sample(0, 2, Point(0, 0, 0)); }, "Range_image", "set_sample"));
+  BOOST_TEST(is_refused([&] { Image(2, 2).set_sample(0, 0, Point(not_a_number, 0, 0)); }, "Range_image", "NaN"));
 }
 
 BOOST_AUTO_TEST_CASE(an_image_moves_with_its_sensor)

@@ -7,7 +7,9 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include "mesh_of.h"
+#include "wrong_use.h"
 
 #include <Eigen/Geometry>
 
@@ -91,22 +93,6 @@ Flat_mesh moved(const Rigid_motion& motion, Flat_mesh mesh, double unit = 1)
   return mesh;
 }
 
-template <class Graph = Mesh>
-Graph graph(const Flat_mesh& flat)
-{
-  Mesh mesh;
-  for (const Vector& p : flat.points) mesh.add_vertex(Point(p.x(), p.y(), p.z()));
-  for (const auto& f : flat.faces)
-    mesh.add_face(Mesh::Vertex_index(unsigned(f[0])), Mesh::Vertex_index(unsigned(f[1])),
-                  Mesh::Vertex_index(unsigned(f[2])));
-  if constexpr (std::is_same<Graph, Mesh>::value) return mesh;
-  else {
-    Graph copy;
-    CGAL::copy_face_graph(mesh, copy);
-    return copy;
-  }
-}
-
 Aff aff(const Rigid_motion& m)
 {
   return CR::internal::to_aff_transformation<Kernel>(m);
@@ -164,7 +150,7 @@ struct Scans
 BOOST_AUTO_TEST_CASE(converges_to_the_truth_from_5_degrees_and_3_percent)
 {
   const Scans scans;
-  const Mesh source = graph(scans.source), target = graph(scans.target);
+  const Mesh source = mesh_of<Mesh>(scans.source), target = mesh_of<Mesh>(scans.target);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const auto refined = CR::refine_motion(source, target, aff(scans.disturbed(5, 0.03 * scans.diagonal, seed)));
     BOOST_TEST(refined.is_converged);
@@ -181,7 +167,7 @@ BOOST_AUTO_TEST_CASE(noise_and_partial_overlap)
   for (double overlap : {0.7, 0.5, 0.3})
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const Scans scans(overlap, 0.2, seed);
-      const Mesh source = graph(scans.source), target = graph(scans.target);
+      const Mesh source = mesh_of<Mesh>(scans.source), target = mesh_of<Mesh>(scans.target);
       const auto refined = CR::refine_motion(source, target, aff(scans.disturbed(2, 2, seed)));
       BOOST_TEST(refined.is_converged);
       BOOST_TEST(refined.iterations <= 10u);
@@ -196,15 +182,15 @@ BOOST_AUTO_TEST_CASE(frames_units_and_order_do_not_matter)
 {
   const Scans scans(0.7, 0.1);
   const Rigid_motion initial = scans.disturbed(3, 2, 5);
-  const auto reference = CR::refine_motion(graph(scans.source), graph(scans.target), aff(initial));
+  const auto reference = CR::refine_motion(mesh_of<Mesh>(scans.source), mesh_of<Mesh>(scans.target), aff(initial));
   Random random{9};
   for (double unit : {1e-3, 0.3048, 1e3}) {
     const Rigid_motion a = rotation_about(middle, random.direction(), 133, 50 * unit * random.direction());
     const Rigid_motion b = rotation_about(middle, random.direction(), 101, 50 * unit * random.direction());
     Rigid_motion scaled = initial;
     scaled.translation *= unit;
-    const auto refined = CR::refine_motion(graph(moved(a, scans.source, unit)), graph(moved(b, scans.target, unit)),
-                                           aff(b * scaled * a.inverse()));
+    const auto refined = CR::refine_motion(mesh_of<Mesh>(moved(a, scans.source, unit)),
+                                           mesh_of<Mesh>(moved(b, scans.target, unit)), aff(b * scaled * a.inverse()));
     Rigid_motion back = b.inverse() * rigid(refined.motion) * a;
     back.translation /= unit;
     BOOST_TEST(difference(back, rigid(reference.motion), scans.source) < 1e-8);
@@ -226,7 +212,8 @@ BOOST_AUTO_TEST_CASE(frames_units_and_order_do_not_matter)
     }
     return other;
   };
-  const auto refined = CR::refine_motion(graph(reordered(scans.source)), graph(reordered(scans.target)), aff(initial));
+  const auto refined =
+      CR::refine_motion(mesh_of<Mesh>(reordered(scans.source)), mesh_of<Mesh>(reordered(scans.target)), aff(initial));
   BOOST_TEST(difference(refined.motion, rigid(reference.motion), scans.source) < 1e-8);
 }
 
@@ -234,7 +221,7 @@ BOOST_AUTO_TEST_CASE(swapped_meshes_give_the_inverse)
 {
   const Scans scans(0.7, 0.1);
   const Rigid_motion initial = scans.disturbed(3, 2, 5);
-  const Mesh source = graph(scans.source), target = graph(scans.target);
+  const Mesh source = mesh_of<Mesh>(scans.source), target = mesh_of<Mesh>(scans.target);
   const auto there = CR::refine_motion(source, target, aff(initial));
   const auto back = CR::refine_motion(target, source, aff(initial.inverse()));
   BOOST_TEST(difference(there.motion, rigid(back.motion).inverse(), scans.source) < 0.1);
@@ -242,7 +229,7 @@ BOOST_AUTO_TEST_CASE(swapped_meshes_give_the_inverse)
 
 BOOST_AUTO_TEST_CASE(a_mesh_against_itself_stays)
 {
-  const Mesh mesh = graph(sampled(hills, 0, 0, 40, 40));
+  const Mesh mesh = mesh_of<Mesh>(sampled(hills, 0, 0, 40, 40));
   const auto refined = CR::refine_motion(mesh, mesh, Aff(CGAL::IDENTITY));
   BOOST_TEST(refined.is_converged);
   BOOST_TEST(refined.iterations == 1u);
@@ -256,7 +243,7 @@ BOOST_AUTO_TEST_CASE(stop_rule)
 {
   namespace p = CR::parameters;
   const Scans scans(0.7, 0.1);
-  const Mesh source = graph(scans.source), target = graph(scans.target);
+  const Mesh source = mesh_of<Mesh>(scans.source), target = mesh_of<Mesh>(scans.target);
   const Aff initial = aff(scans.disturbed(4, 3, 5));
 
   const auto one = CR::refine_motion(source, target, initial, p::number_of_iterations(1));
@@ -318,7 +305,7 @@ BOOST_AUTO_TEST_CASE(free_motions_are_counted_and_not_taken)
         for (Flat_mesh* mesh : {&source, &target}) add_noise(*mesh, noise, random);
         // About a corner, so that overlap and normals stay.
         const Rigid_motion initial = rotation_about(Vector(0, 0, r), random.direction(), 1, random.direction());
-        const auto refined = CR::refine_motion(graph(source), graph(target), aff(initial));
+        const auto refined = CR::refine_motion(mesh_of<Mesh>(source), mesh_of<Mesh>(target), aff(initial));
         BOOST_TEST(refined.is_converged);
         BOOST_TEST(refined.number_of_free_motions == cases[i].free);
         BOOST_TEST(refined.residual < 0.05 + 2 * noise);
@@ -334,7 +321,7 @@ BOOST_AUTO_TEST_CASE(a_plane_is_not_moved_along_itself)
   const auto plane = [](double u, double v) { return Vector(u, v, 0); };
   const Flat_mesh source = sampled(plane, 0.3, 0.6, 50, 50), target = sampled(plane, 0, 0, 50, 50);
   const Rigid_motion initial = rotation_about(Vector(25, 25, 0), Vector(1, 0, 0), 2, Vector(0.5, -0.7, 1));
-  const auto refined = CR::refine_motion(graph(source), graph(target), aff(initial));
+  const auto refined = CR::refine_motion(mesh_of<Mesh>(source), mesh_of<Mesh>(target), aff(initial));
   BOOST_TEST(refined.number_of_free_motions == 3);
   // Height and tilt are right, and the rest is as it was.
   const Rigid_motion expected = rotation_about(Vector(25, 25, 0), Vector(1, 0, 0), 0, Vector(0.5, -0.7, 0));
@@ -348,7 +335,8 @@ BOOST_AUTO_TEST_CASE(the_covariance_tells_the_scatter)
   const int trials = 20;
   for (int i = 0; i < trials; ++i) {
     const Scans scans(0.8, 0.1, std::uint64_t(i) + 1);
-    const auto refined = CR::refine_motion(graph(scans.source), graph(scans.target), aff(scans.disturbed(1, 1, 3)));
+    const auto refined =
+        CR::refine_motion(mesh_of<Mesh>(scans.source), mesh_of<Mesh>(scans.target), aff(scans.disturbed(1, 1, 3)));
     const Rigid_motion error = rigid(refined.motion) * scans.truth.inverse();
     const Eigen::AngleAxisd turn(error.rotation);
     Eigen::Matrix<double, 6, 1> e;
@@ -366,7 +354,7 @@ BOOST_AUTO_TEST_CASE(nothing_within_reach)
   const Scans scans;
   Rigid_motion away = scans.truth;
   away.translation.z() += 1000;
-  const auto refined = CR::refine_motion(graph(scans.source), graph(scans.target), aff(away));
+  const auto refined = CR::refine_motion(mesh_of<Mesh>(scans.source), mesh_of<Mesh>(scans.target), aff(away));
   BOOST_TEST(!refined.is_converged);
   BOOST_TEST(refined.iterations == 0u);
   BOOST_TEST(refined.overlap == 0.);
@@ -376,7 +364,7 @@ BOOST_AUTO_TEST_CASE(nothing_within_reach)
   // The same surface seen from behind.
   Flat_mesh flipped = scans.target;
   for (auto& f : flipped.faces) std::swap(f[0], f[1]);
-  const auto behind = CR::refine_motion(graph(scans.source), graph(flipped), aff(scans.truth));
+  const auto behind = CR::refine_motion(mesh_of<Mesh>(scans.source), mesh_of<Mesh>(flipped), aff(scans.truth));
   BOOST_TEST(!behind.is_converged);
   BOOST_TEST(behind.overlap == 0.);
 }
@@ -392,8 +380,8 @@ BOOST_AUTO_TEST_CASE(isolated_and_duplicate_vertices_do_no_harm)
     other.faces.push_back({n, n + 1, n + 2}); // without area
     return other;
   };
-  const auto refined =
-      CR::refine_motion(graph(spoilt(scans.source)), graph(spoilt(scans.target)), aff(scans.disturbed(3, 3, 1)));
+  const auto refined = CR::refine_motion(mesh_of<Mesh>(spoilt(scans.source)), mesh_of<Mesh>(spoilt(scans.target)),
+                                         aff(scans.disturbed(3, 3, 1)));
   BOOST_TEST(refined.is_converged);
   BOOST_TEST(difference(refined.motion, scans.truth, scans.source) < 0.05);
 }
@@ -404,10 +392,11 @@ BOOST_AUTO_TEST_CASE(any_face_graph_kernel_and_point_map)
   using Polyhedron = CGAL::Polyhedron_3<Epick>;
   const Scans scans(0.7, 0.1);
   const Aff initial = aff(scans.disturbed(3, 2, 5));
-  Mesh target = graph(scans.target);
-  const auto reference = CR::refine_motion(graph(scans.source), target, initial);
+  Mesh target = mesh_of<Mesh>(scans.target);
+  const auto reference = CR::refine_motion(mesh_of<Mesh>(scans.source), target, initial);
 
-  const auto polyhedra = CR::refine_motion(graph<Polyhedron>(scans.source), graph<Polyhedron>(scans.target), initial);
+  const auto polyhedra =
+      CR::refine_motion(mesh_of<Polyhedron>(scans.source), mesh_of<Polyhedron>(scans.target), initial);
   BOOST_TEST(difference(polyhedra.motion, rigid(reference.motion), scans.source) < 1e-8);
 
   auto map = target.add_property_map<Mesh::Vertex_index, Point>("v:elsewhere").first;
@@ -415,7 +404,7 @@ BOOST_AUTO_TEST_CASE(any_face_graph_kernel_and_point_map)
     map[v] = target.point(v);
     target.point(v) = CGAL::ORIGIN;
   }
-  const auto mapped = CR::refine_motion(graph(scans.source), target, initial, CR::parameters::tolerance(0.05),
+  const auto mapped = CR::refine_motion(mesh_of<Mesh>(scans.source), target, initial, CR::parameters::tolerance(0.05),
                                         CR::parameters::vertex_point_map(map));
   BOOST_TEST(difference(mapped.motion, rigid(reference.motion), scans.source) == 0.);
 }
@@ -424,7 +413,7 @@ BOOST_AUTO_TEST_CASE(any_face_graph_kernel_and_point_map)
 BOOST_AUTO_TEST_CASE(threads_give_the_same_bits)
 {
   const Scans scans(0.7, 0.1);
-  const Mesh source = graph(scans.source), target = graph(scans.target);
+  const Mesh source = mesh_of<Mesh>(scans.source), target = mesh_of<Mesh>(scans.target);
   const Aff initial = aff(scans.disturbed(3, 2, 5));
   const auto one = CR::refine_motion<CGAL::Sequential_tag>(source, target, initial);
   const auto many = CR::refine_motion<CGAL::Parallel_tag>(source, target, initial);
@@ -438,17 +427,12 @@ BOOST_AUTO_TEST_CASE(threads_give_the_same_bits)
 BOOST_AUTO_TEST_CASE(wrong_use_names_the_argument)
 {
   namespace p = CR::parameters;
-  const auto says = [](const std::string& argument) {
-    return [argument](const std::invalid_argument& e) {
-      const std::string what = e.what();
-      return what.rfind("refine_motion:", 0) == 0 && what.find(argument) != std::string::npos;
-    };
-  };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Mesh good = graph(sampled(hills, 0, 0, 10, 10)), empty;
+  const Mesh good = mesh_of<Mesh>(sampled(hills, 0, 0, 10, 10)), empty;
   const Aff identity(CGAL::IDENTITY);
   const auto throws = [&](const Mesh& source, const Mesh& target, const Aff& initial, const std::string& argument) {
-    BOOST_CHECK_EXCEPTION(CR::refine_motion(source, target, initial), std::invalid_argument, says(argument));
+    BOOST_CHECK_EXCEPTION(CR::refine_motion(source, target, initial), std::invalid_argument,
+                          names("refine_motion:", argument));
   };
   throws(empty, good, identity, "source");
   throws(good, empty, identity, "target");
@@ -468,7 +452,8 @@ BOOST_AUTO_TEST_CASE(wrong_use_names_the_argument)
   throws(good, good, Aff(1, 0, 0, nan, 0, 1, 0, 0, 0, 0, 1, 0), "initial_motion");
 
   const auto rejects = [&](const auto& np, const std::string& argument) {
-    BOOST_CHECK_EXCEPTION(CR::refine_motion(good, good, identity, np), std::invalid_argument, says(argument));
+    BOOST_CHECK_EXCEPTION(CR::refine_motion(good, good, identity, np), std::invalid_argument,
+                          names("refine_motion:", argument));
   };
   rejects(p::tolerance(0), "tolerance");
   rejects(p::maximum_distance(-1.), "maximum_distance");

@@ -2,18 +2,16 @@
 #include <boost/test/unit_test.hpp>
 
 #include "generated_room.h"
-#include "generated_surfaces.h"
+#include "registration_checks.h"
+#include "wrong_use.h"
 
 #include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/register_scans.h>
 #include <CGAL/Crude_registration/simulate_range_image.h>
 #include <CGAL/Crude_registration/triangulate_points.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
@@ -36,22 +34,7 @@
 #include <utility>
 #include <vector>
 
-namespace CR = CGAL::Crude_registration;
-namespace p = CR::parameters;
-using CR::internal::Flat_mesh;
-using CR::internal::Matrix;
-using CR::internal::Rigid_motion;
-using CR::internal::to_rigid_motion;
-using CR::internal::Vector;
-using generated::pi;
 using generated::Random;
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
-using Scan = CR::Scan<Kernel>;
-using Result = CR::Registration_result<Kernel>;
-using Image = CR::Range_image<Kernel>;
 
 namespace {
 
@@ -98,34 +81,13 @@ Rigid_motion true_motion(const View& source, const View& target)
   return target.scene_from_scan.inverse() * source.scene_from_scan;
 }
 
-double rotation_between(const Rigid_motion& a, const Rigid_motion& b)
-{
-  return Eigen::AngleAxisd(a.rotation * b.rotation.transpose()).angle() * 180 / pi;
-}
-
-void check_proper(const Result& result)
-{
-  for (const auto& t : {result.transformation(), result.crude_transformation(), result.inverse_transformation()}) {
-    const Matrix r = to_rigid_motion(t).rotation;
-    BOOST_TEST((r * r.transpose() - Matrix::Identity()).norm() < 1e-9);
-    BOOST_TEST(std::abs(r.determinant() - 1) < 1e-9);
-    BOOST_TEST(to_rigid_motion(t).translation.allFinite());
-  }
-  BOOST_TEST(result.confidence() >= 0);
-  BOOST_TEST(result.confidence() <= 1);
-  BOOST_TEST(result.covariance().allFinite());
-  BOOST_TEST(std::isfinite(result.overlap()));
-  BOOST_TEST(std::isfinite(result.residual()));
-  BOOST_TEST((result.status() == CR::REGISTERED) == result.reason().empty());
-}
-
 // Registered, to 1 degree and two sampling distances in the middle of the scan.
 void check_right(const Result& result, const Rigid_motion& truth, const Vector& centre, double spacing)
 {
   check_proper(result);
   BOOST_TEST(result.status() == CR::REGISTERED);
   const Rigid_motion motion = to_rigid_motion(result.transformation());
-  BOOST_TEST(rotation_between(motion, truth) < 1);
+  BOOST_TEST(angle_between(motion, truth) < 1);
   BOOST_TEST((motion(centre) - truth(centre)).norm() < 2 * spacing);
 }
 
@@ -161,19 +123,6 @@ void check_not_registered(const Result& result)
   }
 }
 
-Image moved(const Image& image, const Rigid_motion& motion, double unit = 1)
-{
-  std::vector<Point> points;
-  for (const Point& q : image.points()) {
-    const Vector m = motion(unit * CR::internal::to_vector(q));
-    points.push_back(Point(m.x(), m.y(), m.z()));
-  }
-  Image result(image.columns(), image.rows(), points, image.grid());
-  const Vector viewpoint = motion(unit * CR::internal::to_vector(image.sensor().viewpoint()));
-  result.set_sensor(CR::Sensor<Kernel>::perspective(Point(viewpoint.x(), viewpoint.y(), viewpoint.z())));
-  return result;
-}
-
 // With x -> -x.
 Image mirrored(const Image& image)
 {
@@ -187,18 +136,6 @@ Mesh mesh_of(const Image& image)
   Mesh mesh;
   CR::triangulate_range_image(image, mesh);
   return mesh;
-}
-
-Mesh mesh_of(const Flat_mesh& flat)
-{
-  Mesh mesh;
-  CR::internal::add_flat_mesh(flat, mesh, p::default_values());
-  return mesh;
-}
-
-Flat_mesh flat(const Mesh& mesh)
-{
-  return CR::internal::to_flat_mesh(mesh, p::default_values(), "", "");
 }
 
 const Point origin(0, 0, 0);
@@ -221,7 +158,7 @@ BOOST_AUTO_TEST_CASE(views_that_overlap_are_registered)
         BOOST_TEST(result.free_motions().empty());
         BOOST_TEST(result.residual() < 1);
         // The crude motion is near, and the refined one nearer than a sampling distance or two.
-        BOOST_TEST(rotation_between(to_rigid_motion(result.crude_transformation()), true_motion(source, target)) < 5);
+        BOOST_TEST(angle_between(to_rigid_motion(result.crude_transformation()), true_motion(source, target)) < 5);
         for (const auto& other : result.runners_up()) BOOST_TEST(other.score <= result.score());
       }
     }
@@ -360,8 +297,8 @@ BOOST_AUTO_TEST_CASE(the_order_of_vertices_and_faces_does_not_matter)
   const View &source = view(0, 0), &target = view(0, 90);
   const Mesh a = mesh_of(source.image), b = mesh_of(target.image);
   const Result reference = CR::register_meshes(a, b, p::viewpoint(origin), p::viewpoint(origin)),
-               result = CR::register_meshes(mesh_of(generated::shuffled(flat(a), 1)),
-                                            mesh_of(generated::shuffled(flat(b), 2)), p::viewpoint(origin),
+               result = CR::register_meshes(mesh_of(generated::shuffled(flat_mesh_of(a), 1)),
+                                            mesh_of(generated::shuffled(flat_mesh_of(b), 2)), p::viewpoint(origin),
                                             p::viewpoint(origin));
   check_right(reference, source, target);
   check_same(result, reference, source.centre, 0.3 * source.scan.spacing());
@@ -378,7 +315,7 @@ BOOST_AUTO_TEST_CASE(a_scan_against_itself_is_the_identity)
        {std::pair(&closed_result, Scan(statue).spacing()), std::pair(&open_result, open.scan.spacing())}) {
     check_proper(*result);
     BOOST_TEST(result->status() == CR::REGISTERED);
-    BOOST_TEST(rotation_between(to_rigid_motion(result->transformation()), Rigid_motion()) < 0.01);
+    BOOST_TEST(angle_between(to_rigid_motion(result->transformation()), Rigid_motion()) < 0.01);
     BOOST_TEST(to_rigid_motion(result->transformation()).translation.norm() < 0.05 * spacing);
     BOOST_TEST(result->overlap() > 0.9);
   }
@@ -414,7 +351,7 @@ BOOST_AUTO_TEST_CASE(a_scan_against_fused_views)
   Flat_mesh fused;
   for (int degrees : {0, 90}) {
     const View& v = view(0, degrees);
-    const Flat_mesh part = flat(mesh_of(v.image));
+    const Flat_mesh part = flat_mesh_of(mesh_of(v.image));
     const auto first = std::int32_t(fused.points.size());
     for (const Vector& q : part.points) fused.points.push_back(v.scene_from_scan(q));
     for (const auto& f : part.faces) fused.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
@@ -534,21 +471,6 @@ BOOST_AUTO_TEST_CASE(extents_of_the_axes)
   check_not_registered(CR::register_scans(source.scan, target.scan, p::maximum_extent(1e-6)));
   check_not_registered(CR::register_scans(source.scan, target.scan, p::minimum_extent(5.).maximum_extent(6.)));
 }
-
-namespace {
-
-// That an exception names the function and the argument.
-auto names(const std::string& function, const std::string& argument)
-{
-  return [=](const std::invalid_argument& e) {
-    const std::string what = e.what();
-    const bool is_named = what.rfind(function, 0) == 0 && what.find(argument) != std::string::npos;
-    if (!is_named) BOOST_TEST_MESSAGE("said: " << what);
-    return is_named;
-  };
-}
-
-} // namespace
 
 BOOST_AUTO_TEST_CASE(wrong_use_names_the_argument)
 {

@@ -9,10 +9,11 @@
 #include <boost/test/unit_test.hpp>
 
 #include "generated_surfaces.h"
+#include "mesh_of.h"
+#include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/internal/Quadric_simplification.h>
-#include <CGAL/Crude_registration/internal/add_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/scan_frame.h>
 #include <CGAL/Crude_registration/simplify_scan.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
@@ -39,35 +40,16 @@ using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using generated::Vector;
 
-namespace {
-
-template <class Face_graph = Mesh>
-Face_graph make_mesh(const CR::internal::Flat_mesh& flat)
-{
-  Face_graph mesh;
-  CR::internal::add_flat_mesh(flat, mesh, parameters::default_values());
-  return mesh;
-}
-
-struct Names
-{
-  std::string start;
-
-  bool operator()(const std::invalid_argument& e) const { return std::string(e.what()).rfind(start, 0) == 0; }
-};
-
-} // namespace
-
 BOOST_AUTO_TEST_CASE(stops_at_the_number_of_vertices)
 {
   for (std::size_t n : {std::size_t(1000), std::size_t(300), std::size_t(50)}) {
-    Mesh mesh = make_mesh(generated::bumps(40, 1, 0.002));
+    Mesh mesh = mesh_of<Mesh>(generated::bumps(40, 1, 0.002));
     BOOST_TEST(CR::simplify_scan(mesh, parameters::number_of_vertices(n)) == n);
     BOOST_TEST(mesh.number_of_vertices() == n);
     BOOST_TEST(CGAL::is_triangle_mesh(mesh));
     BOOST_TEST(CGAL::is_valid_polygon_mesh(mesh));
   }
-  Mesh mesh = make_mesh(generated::bumps(10));
+  Mesh mesh = mesh_of<Mesh>(generated::bumps(10));
   BOOST_TEST(CR::simplify_scan(mesh, parameters::number_of_vertices(100000)) == 121);
 }
 
@@ -78,7 +60,7 @@ BOOST_AUTO_TEST_CASE(the_error_is_a_mean_squared_distance)
   const auto dense = generated::bumps(50, 1, 0.003);
   std::size_t previous = dense.points.size() + 1;
   for (double error : {0.0, 1e-7, 1e-6, 1e-5, 1e-4}) {
-    Mesh mesh = make_mesh(dense);
+    Mesh mesh = mesh_of<Mesh>(dense);
     const std::size_t n = CR::simplify_scan(mesh, parameters::approximation_error(error));
     BOOST_TEST(n < previous);
     previous = n;
@@ -92,7 +74,7 @@ BOOST_AUTO_TEST_CASE(the_error_is_a_mean_squared_distance)
 BOOST_AUTO_TEST_CASE(both_stops_and_neither)
 {
   const auto dense = generated::bumps(40, 1, 0.002);
-  Mesh a = make_mesh(dense), b = a, c = a, d = a;
+  Mesh a = mesh_of<Mesh>(dense), b = a, c = a, d = a;
   const std::size_t by_error = CR::simplify_scan(a, parameters::approximation_error(1e-5));
   BOOST_TEST(by_error > 10);
   BOOST_TEST(CR::simplify_scan(b, parameters::approximation_error(1e-5).number_of_vertices(by_error + 50)) ==
@@ -100,19 +82,19 @@ BOOST_AUTO_TEST_CASE(both_stops_and_neither)
   BOOST_TEST(CR::simplify_scan(c, parameters::number_of_vertices(10).approximation_error(1e-5)) == by_error);
   Mesh e = d;
   BOOST_TEST(CR::simplify_scan(d) ==
-             CR::simplify_scan(e, parameters::approximation_error(CR::approximation_error(make_mesh(dense)))));
+             CR::simplify_scan(e, parameters::approximation_error(CR::approximation_error(mesh_of<Mesh>(dense)))));
 }
 
 BOOST_AUTO_TEST_CASE(units_and_frames_do_not_matter)
 {
   const auto dense = generated::bumps(40, 1, 0.002);
   const double error = 1e-5;
-  Mesh mesh = make_mesh(dense);
+  Mesh mesh = mesh_of<Mesh>(dense);
   const double expected = double(CR::simplify_scan(mesh, parameters::approximation_error(error)));
   generated::Random random(6);
   for (double scale : {1e-3, 0.3048, 1.0, 1e4})
     for (double distance : {0.0, 1.0, 1e4}) {
-      Mesh other = make_mesh(generated::moved(dense, random.motion(distance * scale), scale));
+      Mesh other = mesh_of<Mesh>(generated::moved(dense, random.motion(distance * scale), scale));
       const double n = double(CR::simplify_scan(other, parameters::approximation_error(scale * scale * error)));
       // Rounding decides between equal costs, and which way flat regions go.
       BOOST_TEST(std::abs(n - expected) <= 0.03 * expected);
@@ -124,7 +106,7 @@ BOOST_AUTO_TEST_CASE(vertices_without_collapse_keep_their_coordinates)
   const auto dense = generated::bumps(30, 1, 0.002);
   CR::internal::Rigid_motion motion;
   motion.translation = Vector(0.1, 1000.7, -3.3);
-  Mesh mesh = make_mesh(generated::moved(dense, motion));
+  Mesh mesh = mesh_of<Mesh>(generated::moved(dense, motion));
   std::set<Point> before;
   for (Mesh::Vertex_index v : mesh.vertices()) before.insert(mesh.point(v));
   CR::simplify_scan(mesh, parameters::number_of_vertices(900));
@@ -137,11 +119,11 @@ BOOST_AUTO_TEST_CASE(vertices_without_collapse_keep_their_coordinates)
 BOOST_AUTO_TEST_CASE(every_kind_of_mesh)
 {
   const auto dense = generated::bumps(25, 1, 0.002);
-  Mesh mesh = make_mesh(dense);
+  Mesh mesh = mesh_of<Mesh>(dense);
   const std::size_t expected = CR::simplify_scan(mesh, parameters::approximation_error(1e-5));
   using Exact_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-  auto polyhedron = make_mesh<CGAL::Polyhedron_3<Kernel>>(dense);
-  auto exact = make_mesh<CGAL::Surface_mesh<Exact_kernel::Point_3>>(dense);
+  auto polyhedron = mesh_of<CGAL::Polyhedron_3<Kernel>>(dense);
+  auto exact = mesh_of<CGAL::Surface_mesh<Exact_kernel::Point_3>>(dense);
   BOOST_TEST(CR::simplify_scan(polyhedron, parameters::approximation_error(1e-5)) == expected);
   BOOST_TEST(polyhedron.size_of_vertices() == expected);
   BOOST_TEST(CR::simplify_scan(exact, parameters::approximation_error(1e-5)) == expected);
@@ -150,7 +132,7 @@ BOOST_AUTO_TEST_CASE(every_kind_of_mesh)
 BOOST_AUTO_TEST_CASE(the_vertex_point_map_is_read_and_written)
 {
   const auto dense = generated::bumps(25, 1, 0.002);
-  Mesh expected = make_mesh(dense), mesh = expected;
+  Mesh expected = mesh_of<Mesh>(dense), mesh = expected;
   auto map = mesh.add_property_map<Mesh::Vertex_index, Point>("v:elsewhere").first;
   for (Mesh::Vertex_index v : mesh.vertices()) {
     map[v] = mesh.point(v);
@@ -167,7 +149,7 @@ BOOST_AUTO_TEST_CASE(the_vertex_point_map_is_read_and_written)
 
 BOOST_AUTO_TEST_CASE(closed_meshes_and_vertices_without_faces)
 {
-  Mesh mesh = make_mesh(generated::sphere(12, 1));
+  Mesh mesh = mesh_of<Mesh>(generated::sphere(12, 1));
   mesh.add_vertex(Point(0, 0, 0));
   BOOST_TEST(CR::simplify_scan(mesh, parameters::number_of_vertices(50)) == 50);
   mesh.collect_garbage();
@@ -189,7 +171,7 @@ BOOST_AUTO_TEST_CASE(degenerate_faces)
   auto dense = generated::bumps(10);
   for (std::size_t i : {std::size_t(12), std::size_t(13), std::size_t(23), std::size_t(24), std::size_t(25)})
     dense.points[i] = dense.points[14];
-  Mesh mesh = make_mesh(dense);
+  Mesh mesh = mesh_of<Mesh>(dense);
   const std::size_t n = CR::simplify_scan(mesh, parameters::number_of_vertices(40));
   BOOST_TEST(n == 40);
   for (Mesh::Vertex_index v : mesh.vertices()) BOOST_TEST(std::isfinite(mesh.point(v).x()));
@@ -200,13 +182,13 @@ BOOST_AUTO_TEST_CASE(wrong_use_is_named)
   Mesh quad;
   quad.add_face(quad.add_vertex(Point(0, 0, 0)), quad.add_vertex(Point(1, 0, 0)), quad.add_vertex(Point(1, 1, 0)),
                 quad.add_vertex(Point(0, 1, 0)));
-  BOOST_CHECK_EXCEPTION(CR::simplify_scan(quad), std::invalid_argument, Names{"simplify_scan: face 0 of mesh"});
-  Mesh mesh = make_mesh(generated::bumps(5));
+  BOOST_CHECK_EXCEPTION(CR::simplify_scan(quad), std::invalid_argument, names("simplify_scan: face 0 of mesh"));
+  Mesh mesh = mesh_of<Mesh>(generated::bumps(5));
   for (double bad : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     BOOST_CHECK_EXCEPTION(CR::simplify_scan(mesh, parameters::approximation_error(bad)), std::invalid_argument,
-                          Names{"simplify_scan: approximation_error"});
+                          names("simplify_scan: approximation_error"));
   BOOST_CHECK_EXCEPTION(CR::simplify_scan(mesh, parameters::number_of_vertices(-1)), std::invalid_argument,
-                        Names{"simplify_scan: number_of_vertices"});
+                        names("simplify_scan: number_of_vertices"));
   BOOST_TEST(mesh.number_of_vertices() == 36);
 }
 
@@ -230,7 +212,7 @@ BOOST_AUTO_TEST_CASE(real_scans_are_left_with_the_papers_number_of_vertices)
     BOOST_TEST(smooth < 46.5);
 
     const double error = CR::approximation_error(image);
-    CR::internal::Flat_mesh flat = CR::internal::to_flat_mesh(mesh, parameters::default_values(), "test", "mesh");
+    CR::internal::Flat_mesh flat = flat_mesh_of(mesh);
     flat = generated::moved(flat, CR::internal::scan_frame(flat));
     CR::internal::Quadric_simplification fast(flat, 3.5 * CR::sampling_distance(image));
     fast.collapse_to_error(error);

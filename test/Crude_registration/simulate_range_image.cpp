@@ -8,6 +8,8 @@
 #define BOOST_TEST_MODULE simulate_range_image
 #include <boost/test/unit_test.hpp>
 
+#include "mesh_of.h"
+
 #include <CGAL/Crude_registration/make_statue.h>
 #include <CGAL/Crude_registration/simulate_range_image.h>
 
@@ -41,14 +43,8 @@ Vector vector(const Point& p)
 const Mesh& sphere()
 {
   static const Mesh mesh = [] {
-    Mesh m;
-    const CR::internal::Flat_mesh flat = CR::internal::marching_tetrahedra(
-        [](const Vector& p) { return 1 - p.norm(); }, Vector::Constant(-1.05), 2.1 / 80, {80, 80, 80});
-    for (const Vector& p : flat.points) m.add_vertex(Point(p.x(), p.y(), p.z()));
-    using V = Mesh::Vertex_index;
-    for (const auto& f : flat.faces)
-      m.add_face(V(Mesh::size_type(f[0])), V(Mesh::size_type(f[1])), V(Mesh::size_type(f[2])));
-    return m;
+    return mesh_of<Mesh>(CR::internal::marching_tetrahedra([](const Vector& p) { return 1 - p.norm(); },
+                                                           Vector::Constant(-1.05), 2.1 / 80, {80, 80, 80}));
   }();
   return mesh;
 }

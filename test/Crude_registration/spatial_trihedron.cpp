@@ -14,15 +14,15 @@
 #include <CGAL/Surface_mesh.h>
 
 #include "generated_surfaces.h"
+#include "mesh_of.h"
+#include "wrong_use.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -56,31 +56,10 @@ Trihedron_options options(double least, double most)
   return o;
 }
 
-Mesh to_surface_mesh(const Flat_mesh& flat)
-{
-  Mesh mesh;
-  std::vector<Mesh::Vertex_index> v;
-  for (const Vector& p : flat.points) v.push_back(mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
-  for (const auto& f : flat.faces) mesh.add_face(v[std::size_t(f[0])], v[std::size_t(f[1])], v[std::size_t(f[2])]);
-  return mesh;
-}
-
 double volume(const std::vector<Vector>& p, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d)
 {
   const Vector& o = p[std::size_t(a)];
   return (p[std::size_t(b)] - o).cross(p[std::size_t(c)] - o).dot(p[std::size_t(d)] - o);
-}
-
-bool says(const std::function<void()>& call, const std::string& start, const std::string& word)
-{
-  try {
-    call();
-  } catch (const std::invalid_argument& e) {
-    const std::string what = e.what();
-    BOOST_TEST_MESSAGE(what);
-    return what.compare(0, start.size(), start) == 0 && what.find(word) != std::string::npos;
-  }
-  return false;
 }
 
 } // namespace
@@ -241,7 +220,7 @@ BOOST_AUTO_TEST_CASE(several_trihedra_a_vertex_at_several_scales)
 BOOST_AUTO_TEST_CASE(of_a_mesh_with_the_papers_shares)
 {
   const Flat_mesh flat = generated::bumps(20);
-  const Mesh mesh = to_surface_mesh(flat);
+  const Mesh mesh = mesh_of<Mesh>(flat);
   const double extent = CR::scan_extent(mesh).mean();
   const auto trihedra = CR::spatial_trihedra(mesh, CR::parameters::minimum_extent(0.2).maximum_extent(0.5));
   BOOST_TEST(!trihedra.empty());
@@ -261,16 +240,16 @@ BOOST_AUTO_TEST_CASE(of_a_mesh_with_the_papers_shares)
 
 BOOST_AUTO_TEST_CASE(wrong_use_is_named)
 {
-  const Mesh mesh = to_surface_mesh(generated::bumps(4));
+  const Mesh mesh = mesh_of<Mesh>(generated::bumps(4));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   namespace P = CR::parameters;
   const auto call = [&](auto np) { return [&mesh, np] { CR::spatial_trihedra(mesh, np); }; };
-  BOOST_TEST(says(call(P::minimum_extent(0.4).maximum_extent(0.3)), "spatial_trihedra", "minimum_extent"));
-  BOOST_TEST(says(call(P::minimum_extent(0.3).maximum_extent(0.3)), "spatial_trihedra", "minimum_extent"));
-  BOOST_TEST(says(call(P::minimum_extent(-0.1)), "spatial_trihedra", "minimum_extent"));
-  BOOST_TEST(says(call(P::maximum_extent(nan)), "spatial_trihedra", "maximum_extent"));
-  BOOST_TEST(says(call(P::maximum_extent(0.)), "spatial_trihedra", "maximum_extent"));
+  BOOST_TEST(is_refused(call(P::minimum_extent(0.4).maximum_extent(0.3)), "spatial_trihedra", "minimum_extent"));
+  BOOST_TEST(is_refused(call(P::minimum_extent(0.3).maximum_extent(0.3)), "spatial_trihedra", "minimum_extent"));
+  BOOST_TEST(is_refused(call(P::minimum_extent(-0.1)), "spatial_trihedra", "minimum_extent"));
+  BOOST_TEST(is_refused(call(P::maximum_extent(nan)), "spatial_trihedra", "maximum_extent"));
+  BOOST_TEST(is_refused(call(P::maximum_extent(0.)), "spatial_trihedra", "maximum_extent"));
   Mesh broken = mesh;
   broken.point(*broken.vertices().begin()) = Kernel::Point_3(0, nan, 0);
-  BOOST_TEST(says([&] { CR::spatial_trihedra(broken); }, "spatial_trihedra", "mesh"));
+  BOOST_TEST(is_refused([&] { CR::spatial_trihedra(broken); }, "spatial_trihedra", "mesh"));
 }

@@ -9,6 +9,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "range_images.h"
+#include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
@@ -370,9 +371,7 @@ BOOST_AUTO_TEST_CASE(wrong_ratios_are_refused)
   Mesh mesh;
   for (double ratio : {0., -1., no_depth, std::numeric_limits<double>::infinity()})
     BOOST_CHECK_EXCEPTION(CR::triangulate_range_image(Image(3, 3), mesh, CR::parameters::maximum_edge_ratio(ratio)),
-                          std::invalid_argument, [](const std::invalid_argument& e) {
-                            return std::string(e.what()).find("triangulate_range_image: maximum_edge_ratio") == 0;
-                          });
+                          std::invalid_argument, names("triangulate_range_image: maximum_edge_ratio"));
 }
 
 BOOST_AUTO_TEST_CASE(real_range_images)

@@ -22,6 +22,7 @@
 #include <CGAL/Surface_mesh.h>
 
 #include "range_images.h"
+#include "mesh_of.h"
 
 #include <Eigen/Geometry>
 
@@ -71,7 +72,7 @@ Scan scan_of(const CR::Range_image<Kernel>& image, std::int32_t vertices)
   Mesh mesh;
   CR::triangulate_range_image(image, mesh);
   Scan scan;
-  scan.dense = CR::internal::to_flat_mesh(mesh, CR::parameters::default_values(), "scan_of", "mesh");
+  scan.dense = flat_mesh_of(mesh);
   scan.sensor = CR::internal::to_flat_sensor(image.sensor());
   CR::internal::Quadric_simplification simplification(scan.dense, 0);
   simplification.collapse_to_number(vertices);

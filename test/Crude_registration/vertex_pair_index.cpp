@@ -12,6 +12,7 @@
 #include <CGAL/Crude_registration/internal/Point_grid.h>
 
 #include "generated_surfaces.h"
+#include "wrong_use.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,6 @@
 #include <cstdint>
 #include <limits>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,13 +91,7 @@ Vertex_pair_descriptor of_pair(const Cloud& c, std::size_t i, std::size_t j)
 template <class... Arguments>
 bool refuses(const std::string& word, const Arguments&... arguments)
 {
-  try {
-    Vertex_pair_index(arguments...);
-  } catch (const std::invalid_argument& e) {
-    const std::string what = e.what();
-    return what.compare(0, 17, "Vertex_pair_index") == 0 && what.find(word) != std::string::npos;
-  }
-  return false;
+  return is_refused([&] { Vertex_pair_index(arguments...); }, "Vertex_pair_index", word);
 }
 
 } // namespace
