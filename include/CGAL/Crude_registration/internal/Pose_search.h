@@ -136,6 +136,25 @@ Agreement agreement(const Prepared_scan& source, const Surfel_level& source_leve
   return a;
 }
 
+// Some of the probes of a level: `n` in a row, from one that is so many on, from the front again at the end.
+class Probes
+{
+public:
+  Probes(const std::vector<std::int32_t>& all, std::size_t from, std::size_t n) : m_begin(all.data())
+  {
+    n = (std::min)(n, all.size());
+    if (n > 0) m_begin += from % (all.size() - n + 1);
+    m_end = m_begin + n;
+  }
+  const std::int32_t* begin() const { return m_begin; }
+  const std::int32_t* end() const { return m_end; }
+  std::size_t size() const { return std::size_t(m_end - m_begin); }
+
+private:
+  const std::int32_t* m_begin;
+  const std::int32_t* m_end;
+};
+
 struct Candidate
 {
   Pose pose;
@@ -157,14 +176,14 @@ struct Search_round
 struct Search_parameters
 {
   std::vector<Search_round> rounds = {{{0.16f}, 300, 5, 80000, 14, 32, 8},
-                                      {{0.16f, 0.1f}, 800, 5, 300000, 14, 100, 8},
-                                      {{0.25f, 0.16f, 0.1f, 0.06f}, 2000, 5, 4000000, 14, 400, 24}};
+                                      {{0.16f, 0.1f}, 800, 5, 200000, 14, 60, 8},
+                                      {{0.25f, 0.16f, 0.1f, 0.06f}, 2000, 4, 1200000, 20, 300, 16}};
   float source_half_width = 0.3f; // of the lengths, in spacings
   float target_half_width = 0.7f;
   float distance = 0.8f; // of a witness to the plane of its counterpart, in spacings
   float minimal_cosine = 0.75f;
   int witnesses = 16, witnesses_needed = 9;
-  float witness_reach = 0.16f; // of the witnesses from the middle of the pair, in shares of M
+  float witness_reach = 0.22f; // of the witnesses from the middle of the pair, in shares of M
 };
 
 struct Search_counts
@@ -243,9 +262,9 @@ public:
     std::vector<Candidate> candidates = match(choose_pairs(round), round);
     m_counts.candidates += candidates.size();
     // More probes for fewer candidates: most are told to be wrong by the first few.
-    narrow(candidates, 12, (std::max)(16 * round.kept, candidates.size() / 8));
-    narrow(candidates, 40, 8 * round.kept);
-    score(candidates, 200);
+    narrow(candidates, 12, (std::max)(8 * round.kept, candidates.size() / 8));
+    narrow(candidates, 40, 4 * round.kept);
+    score(candidates, 100);
     std::vector<Candidate> kept;
     for (const Candidate& c : candidates) {
       if (kept.size() == round.kept) break;
@@ -275,7 +294,7 @@ public:
     };
     refine(200, {1.5f, 1.5f, 1.f});
     if (candidates.size() > 4 * number) candidates.resize(4 * number);
-    refine(600, {1.f, 0.5f, 0.5f, 0.5f});
+    refine(400, {1.f, 0.5f, 0.5f, 0.5f});
     // Some from around each pose, as not all end in it; not all from around the best one, as it needs rivals.
     constexpr auto most_of_one = 3;
     std::vector<Candidate> best;
@@ -391,23 +410,24 @@ private:
                   pose);
   }
 
-  // Leaves the best, by the score of that many probes.
+  // Leaves the best, by the score of that many probes: others for each candidate, since the candidates near the right
+  // pose are many, and any few probes may all lie outside of the overlap.
   void narrow(std::vector<Candidate>& candidates, std::size_t probes, std::size_t left) const
   {
     if (candidates.size() <= left) return;
-    score(candidates, probes);
+    score(candidates, probes, probes);
     candidates.resize(left);
   }
 
-  // Scores the candidates by that many probes of either scan; the best come first.
-  void score(std::vector<Candidate>& candidates, std::size_t probes) const
+  // Scores the candidates by that many probes of either scan, from `stride` further on for each candidate; the best
+  // come first.
+  void score(std::vector<Candidate>& candidates, std::size_t probes, std::size_t stride = 0) const
   {
-    const auto source_probes = first(m_source.coarse.probes, probes),
-               target_probes = first(m_target.coarse.probes, probes);
     for_each_index<ConcurrencyTag>(candidates.size(), [&](std::size_t i) {
       Candidate& c = candidates[i];
       const Agreement a =
-          agreement(m_source, m_source.coarse, source_probes, m_target, m_target.coarse, target_probes, c.pose,
+          agreement(m_source, m_source.coarse, Probes(m_source.coarse.probes, i * stride, probes), m_target,
+                    m_target.coarse, Probes(m_target.coarse.probes, i * stride, probes), c.pose,
                     m_parameters.distance * m_spacing, m_parameters.minimal_cosine, 1.2f * m_spacing);
       c.score = a.overlap - 1.5f * a.violations;
     });
@@ -454,18 +474,25 @@ private:
     return pairs;
   }
 
-  bool has_counterpart(const Surfel& s, const Pose& pose) const
+  // A surfel of the source in the frame of a pair: pair_frame() about the pair's middle.
+  struct Witness
   {
-    const Vector_f p = pose(s.position);
+    Vector_f position, normal;
+  };
+
+  // `frame`, `middle`: of the target's pair.
+  bool has_counterpart(const Witness& w, const Matrix_f& frame, const Vector_f& middle) const
+  {
+    const Vector_f p = frame * w.position + middle;
     const int j = m_target.coarse.field.nearest(p);
     if (j < 0) return false;
     const Surfel& t = m_target.coarse.surfels[std::size_t(j)];
     return std::abs(t.normal.dot(p - t.position)) <= m_parameters.distance * m_spacing &&
-           (pose.rotation * s.normal).dot(t.normal) >= m_parameters.minimal_cosine;
+           (frame * w.normal).dot(t.normal) >= m_parameters.minimal_cosine;
   }
 
   // Surfels around the pair. The first two are v2 and v3: furthest from the line through V and v1, on either side.
-  bool choose_witnesses(const Source_pair& p, std::vector<Surfel>& witnesses) const
+  bool choose_witnesses(const Source_pair& p, std::vector<Witness>& witnesses) const
   {
     const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
                  &b = m_source.coarse.surfels[std::size_t(p.second)];
@@ -477,22 +504,22 @@ private:
     });
     if (around.size() < 10) return false;
     const std::uint64_t seed = std::uint64_t(p.first) << 32 | std::uint64_t(p.second) << 8;
+    const Matrix_f to_pair = pair_frame(a, b).transpose();
     witnesses.clear();
-    for (int w = 0; w < m_parameters.witnesses; ++w)
-      witnesses.push_back(
-          m_source.coarse.surfels[std::size_t(around[Counter_random::mixed(seed + std::uint64_t(w)) % around.size()])]);
-    const Vector_f d = (b.position - a.position).normalized();
-    const auto arm = [&](const Surfel& s) -> Vector_f {
-      const Vector_f e = s.position - a.position;
-      return e - e.dot(d) * d;
-    };
+    for (int w = 0; w < m_parameters.witnesses; ++w) {
+      const std::size_t r = Counter_random::mixed(seed + std::uint64_t(w)) % around.size();
+      const Surfel& s = m_source.coarse.surfels[std::size_t(around[r])];
+      witnesses.push_back({to_pair * (s.position - middle), to_pair * s.normal});
+    }
+    // The line is the first axis.
+    const auto arm = [](const Witness& w) -> Vector_f { return {0, w.position[1], w.position[2]}; };
     std::iter_swap(witnesses.begin(),
-                   std::max_element(witnesses.begin(), witnesses.end(), [&](const Surfel& x, const Surfel& y) {
+                   std::max_element(witnesses.begin(), witnesses.end(), [&](const Witness& x, const Witness& y) {
                      return arm(x).squaredNorm() < arm(y).squaredNorm();
                    }));
     const Vector_f opposite = -arm(witnesses.front());
     std::iter_swap(witnesses.begin() + 1,
-                   std::max_element(witnesses.begin() + 1, witnesses.end(), [&](const Surfel& x, const Surfel& y) {
+                   std::max_element(witnesses.begin() + 1, witnesses.end(), [&](const Witness& x, const Witness& y) {
                      return arm(x).dot(opposite) < arm(y).dot(opposite);
                    }));
     return true;
@@ -533,7 +560,7 @@ private:
   Matches match(const Source_pair& p, const Search_round& round) const
   {
     Matches matches;
-    std::vector<Surfel> witnesses;
+    std::vector<Witness> witnesses;
     if (!choose_witnesses(p, witnesses)) return matches;
     const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
                  &b = m_source.coarse.surfels[std::size_t(p.second)];
@@ -546,16 +573,19 @@ private:
       for (const auto* e = from; e != to; ++e) {
         if (!curvatures.agrees(e->curvatures, tolerance)) continue;
         const Surfel &c = m_target.coarse.surfels[e->first], &c1 = m_target.coarse.surfels[e->second];
-        Pose pose;
-        pose.rotation = pair_frame(c, c1) * source_frame;
-        pose.translation = 0.5f * (c.position + c1.position) - pose.rotation * middle;
+        const Matrix_f frame = pair_frame(c, c1);
+        const Vector_f there = 0.5f * (c.position + c1.position);
         ++matches.hits;
-        if (!has_counterpart(witnesses[0], pose) || !has_counterpart(witnesses[1], pose)) continue;
+        if (!has_counterpart(witnesses[0], frame, there) || !has_counterpart(witnesses[1], frame, there)) continue;
         int support = 2;
         const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
         for (int w = 2; w < n && support + n - w >= needed; ++w)
-          support += has_counterpart(witnesses[std::size_t(w)], pose);
-        if (support >= needed) matches.candidates.push_back({pose, 0});
+          support += has_counterpart(witnesses[std::size_t(w)], frame, there);
+        if (support < needed) continue;
+        Pose pose;
+        pose.rotation = frame * source_frame;
+        pose.translation = there - pose.rotation * middle;
+        matches.candidates.push_back({pose, 0});
       }
     };
     index_of_scale(round.scales[p.scale]).for_each_run(p.angles, look);
