@@ -75,6 +75,7 @@ class Statue
 public:
   explicit Statue(std::uint64_t seed) : m_relief(Counter_random(seed).stream(1))
   {
+    // The numbers are drawn one after the other: no two in one expression, whose order is the compiler's.
     const Counter_random random = Counter_random(seed).stream(0);
     std::uint64_t counter = 0;
     auto between = [&](double a, double b) { return a + (b - a) * random.uniform(counter++); };
@@ -94,7 +95,9 @@ public:
     std::array<Vector, 4> spine;
     std::array<double, 4> girth;
     for (std::size_t i = 0; i < 4; ++i) {
-      spine[i] = Vector(between(-0.13, 0.13), between(-0.13, 0.13), -0.55 + 0.32 * static_cast<double>(i));
+      spine[i].z() = -0.55 + 0.32 * static_cast<double>(i);
+      spine[i].y() = between(-0.13, 0.13);
+      spine[i].x() = between(-0.13, 0.13);
       girth[i] = between(0.42, 0.5) - 0.05 * static_cast<double>(i);
       if (i > 0) add(spine[i - 1], spine[i], girth[i - 1], girth[i]);
     }
@@ -106,6 +109,12 @@ public:
       const double t = between(low, high) * 3;
       const std::size_t i = (std::min)(static_cast<std::size_t>(t), std::size_t(2));
       return spine[i] + (t - static_cast<double>(i)) * (spine[i + 1] - spine[i]);
+    };
+
+    auto beside_torso = [&](double low, double high) -> Vector {
+      const Vector out = direction();
+      const double distance = between(low, high);
+      return on_torso(0, 1) + distance * out;
     };
 
     // Horns: three bones, each turned away from the one before.
@@ -129,18 +138,19 @@ public:
       const Vector elbow = shoulder + between(0.45, 0.55) * out.normalized();
       const double radius = between(0.17, 0.24);
       add(shoulder, elbow, radius * 1.2, radius);
-      if (limb < 4)
-        add(elbow, elbow + between(0.2, 0.4) * (out + 1.2 * direction()).normalized(), radius, radius * 0.6);
-      else add(elbow, on_torso(0, 0.3), radius, radius);
+      if (limb < 4) {
+        const Vector along = (out + 1.2 * direction()).normalized();
+        add(elbow, elbow + between(0.2, 0.4) * along, radius, radius * 0.6);
+      } else add(elbow, on_torso(0, 0.3), radius, radius);
     }
     // Bumps and hollows.
     for (int bump = 0; bump < 7; ++bump) {
-      const Vector p = on_torso(0, 1) + between(0.22, 0.3) * direction();
+      const Vector p = beside_torso(0.22, 0.3);
       const double radius = between(0.12, 0.22);
       add(p, p, radius, radius, 0.8);
     }
     for (int hollow = 0; hollow < 5; ++hollow) {
-      const Vector p = on_torso(0, 1) + between(0.3, 0.4) * direction();
+      const Vector p = beside_torso(0.3, 0.4);
       const double radius = between(0.18, 0.28);
       add(p, p, radius, radius, -1.2);
     }

@@ -60,9 +60,10 @@ struct Trihedron_pass
 {
   std::vector<double> scales;
   int trihedra_per_scale;
-  double length;    // in spacings
-  double angle;     // in degrees
-  double curvature; // in 1 / description radius
+  double length;        // in spacings
+  double angle;         // in degrees
+  double curvature;     // in 1 / description radius
+  std::size_t distinct; // motions that are estimated again
 };
 
 struct Trihedron_search_parameters
@@ -72,10 +73,11 @@ struct Trihedron_search_parameters
   bool use_normals = true;
   // Passes follow each other until the best motion's fine score is at least `certain_score`. Every pass looks up all
   // its trihedra in the whole D-mesh and scores every candidate.
-  std::vector<Trihedron_pass> passes = {{{2. / 3}, 1, 0.7, 12, 0.15},
-                                        {{1, 2. / 3}, 1, 0.7, 15, 0.2},
-                                        {{1, 2. / 3}, 4, 0.7, 20, 0.2},
-                                        {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4}};
+  std::vector<Trihedron_pass> passes = {{{2. / 3}, 1, 0.7, 9, 0.12, 16},
+                                        {{2. / 3}, 1, 0.7, 12, 0.15, 16},
+                                        {{1, 2. / 3}, 1, 0.7, 15, 0.2, 16},
+                                        {{1, 2. / 3}, 4, 0.7, 20, 0.2, 32},
+                                        {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4, 48}};
   double certain_score = 0.1;
   // All candidates are scored by a few of the vertices, the best of them by more, the best of these by all; the best
   // distinct ones are estimated again from all vertices, scored again by all, and refined from the best one on until
@@ -85,7 +87,6 @@ struct Trihedron_search_parameters
   std::size_t kept = 1000;
   std::size_t more_probes = 256;
   std::size_t kept_by_more = 100;
-  std::size_t distinct = 48;
   std::size_t refined_at_once = 2; // by different threads
 };
 
@@ -189,7 +190,7 @@ private:
     result.trihedra += trihedra.size();
 
     std::size_t count = 0;
-    const std::vector<Crude_motion> crude = crude_motions(match(pass, trihedra, count));
+    const std::vector<Crude_motion> crude = crude_motions(match(pass, trihedra, count), pass.distinct);
     result.candidates += count;
 
     // In their order, some at a time (always the same number, whatever the number of threads), until one is certain.
@@ -265,7 +266,7 @@ private:
 
   // The best of the candidates, estimated again from all vertices that agree under them: what aligns S best over D
   // first.
-  std::vector<Crude_motion> crude_motions(std::vector<Scored_candidate> candidates) const
+  std::vector<Crude_motion> crude_motions(std::vector<Scored_candidate> candidates, std::size_t distinct) const
   {
     constexpr auto all = std::size_t(-1);
     const auto look = [&](std::size_t number, std::size_t probes) {
@@ -280,7 +281,7 @@ private:
 
     std::vector<Crude_motion> crude;
     for (const Scored_candidate& c : candidates) {
-      if (crude.size() == m_parameters.distinct) break;
+      if (crude.size() == distinct) break;
       const Rigid_motion& m = c.candidate.motion;
       if (is_distinct(m, crude, spacing(), [](const Crude_motion& r) { return r.trihedron_motion; }))
         crude.push_back({m, m, 0});
