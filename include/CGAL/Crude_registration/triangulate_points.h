@@ -70,8 +70,8 @@ triangles of the Delaunay triangulation of the projections are taken, except tho
 viewpoint it grows with the range. The faces are counterclockwise seen from the sensor. Of points on the same line of
 sight the nearest is taken. Complexity: O(n log n); 40,000 points take about 0.06 seconds.
 
-Without a sensor, the points are joined by `CGAL::advancing_front_surface_reconstruction()`; more than 80,000 are
-thinned to about 80,000 first, each the mean of the points in a cell of a grid along their principal axes. The longest
+Without a sensor, the points are joined by `CGAL::advancing_front_surface_reconstruction()`; more than 40,000 are
+thinned to about 40,000 first, each the mean of the points in a cell of a grid along their principal axes. The longest
 edge is `maximum_edge_ratio` times the spacing of the points that are joined. Each connected part of the result is
 turned so that its faces look, in the mean, away from the centroid of all points, as those of an object seen from
 outside. But if a place is found from where most of the surface is visible, and looks at less than half of the sphere,

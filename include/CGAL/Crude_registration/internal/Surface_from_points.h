@@ -64,7 +64,7 @@ public:
 private:
   // Up to this many points are taken as they are, and of more about this many kept: the front takes 50 microseconds a
   // point.
-  static constexpr std::size_t largest = 80000;
+  static constexpr std::size_t largest = 40000;
 
   // The grid is laid along the points' own axes, from their centroid, so that it moves with them.
   void to_principal_frame()

@@ -50,8 +50,8 @@ public:
     build();
     std::vector<Place> places = all_places();
     keep_best(places, 0, 100, 40);
-    keep_best(places, 100, 500, places.size());
-    constexpr double all = 0.95, most = 0.75, half_of_the_sphere = 0.5;
+    keep_best(places, 100, 2000, places.size());
+    constexpr double all = 0.95, most = 0.7, half_of_the_sphere = 0.5;
     for (const Place& p : places)
       if (p.visible >= all && is_looked_at(p.position)) return false;
     if (places.front().visible < most || coverage(places.front().position) > half_of_the_sphere) return false;
@@ -119,10 +119,11 @@ private:
     places.resize((std::min)(kept, places.size()));
   }
 
-  // Nothing in between: but the sheet of noise that the point itself is in.
+  // Nothing in between: but the noise around the point itself. No more than that: what stands before a wall is hidden
+  // from behind the wall, and tells its sides apart.
   bool is_visible(const Vector& point, const Vector& from) const
   {
-    constexpr double noise = 3; // spacings
+    constexpr double noise = 1; // spacings
     const Vector d = from - point;
     const double length = d.norm();
     return length <= noise ||
