@@ -45,9 +45,10 @@ public:
 
   Rigid_motion motion(double translation)
   {
+    // One after the other: in one expression the order would be the compiler's.
+    const Vector axis = (vector() + Vector(0.1, 0.2, 1.5)).normalized();
     Rigid_motion m;
-    m.rotation =
-        Eigen::AngleAxisd(pi * symmetric(), (vector() + Vector(0.1, 0.2, 1.5)).normalized()).toRotationMatrix();
+    m.rotation = Eigen::AngleAxisd(pi * symmetric(), axis).toRotationMatrix();
     m.translation = translation * vector();
     return m;
   }

@@ -131,9 +131,12 @@ public:
       input.mesh = generated::moved(input.mesh, input.scene_from_scan.inverse());
       return input;
     }
+    // One after the other: the order within an expression is the compiler's.
+    const bool is_perspective = random.is_true();
+    const auto samples = std::size_t(random.between(70, 130));
     auto camera = CR::Range_camera<Kernel>::framing(CGAL::Bbox_3(-0.85, -0.85, -1, 0.85, 0.85, 1),
                                                     Kernel::Vector_3(direction.x(), direction.y(), direction.z()),
-                                                    std::size_t(random.between(70, 130)), random.is_true());
+                                                    samples, is_perspective);
     camera.spacing *= 0.7;
     camera.noise = random.is_true() ? random.between(0, 0.5) : random.between(0.5, 2);
     camera.drop_out = random.between(0, 0.3);
@@ -283,8 +286,8 @@ BOOST_AUTO_TEST_CASE(scans_of_two_bodies_are_not_registered)
   for_each_seed(15, [&](unsigned seed) {
     Random random(seed);
     const Body body(seed), other(seed + 1000000);
-    check_not_registered(CR::register_scans(prepared(body.scan(random.direction(), random)),
-                                            prepared(other.scan(random.direction(), random))));
+    const Input a = body.scan(random.direction(), random), b = other.scan(random.direction(), random);
+    check_not_registered(CR::register_scans(prepared(a), prepared(b)));
   });
 }
 
