@@ -145,7 +145,8 @@ void preparation_of_mesh(benchmark::State& state)
 // the size of a scan.
 CR::internal::Pose_search<> search_of(const Input& in)
 {
-  return {in.source_scan.prepared(), in.target_scan.prepared()};
+  static CR::internal::Run_control to_the_end;
+  return {in.source_scan.prepared(), in.target_scan.prepared(), CR::internal::Search_parameters(), to_the_end};
 }
 
 void index_of_pairs(benchmark::State& state)

@@ -279,6 +279,7 @@ int run_register(const std::vector<std::string>& arguments)
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do "
       "not tell it");
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
+  add("time-budget", po::value<double>(), "seconds after which the search ends, with the best so far");
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
   add("times", "add the times to the JSON");
@@ -334,9 +335,11 @@ int run_register(const std::vector<std::string>& arguments)
     if (side.failure) std::rethrow_exception(side.failure);
   const auto& [source, target] = sides;
 
+  const double time_budget =
+      map.count("time-budget") > 0 ? map["time-budget"].as<double>() : (std::numeric_limits<double>::max)();
   const auto start = std::chrono::steady_clock::now();
   const Result result = CR::register_scans<CGAL::Parallel_if_available_tag>(
-      *source.scan, *target.scan, CR::parameters::minimum_extent(f1).maximum_extent(f2));
+      *source.scan, *target.scan, CR::parameters::minimum_extent(f1).maximum_extent(f2).time_budget(time_budget));
   const double search_seconds = seconds_since(start);
   const bool has_motion = result.status() != CR::NOT_REGISTERED;
 

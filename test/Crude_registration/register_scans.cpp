@@ -21,6 +21,7 @@
 #include <CGAL/boost/graph/graph_traits_PolyMesh_ArrayKernelT.h>
 #endif
 
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -461,6 +462,75 @@ BOOST_AUTO_TEST_CASE(named_parameters_in_any_order)
   check_right(CR::register_meshes(a, b, CGAL::parameters::vertex_point_map(map)), source, target);
 }
 
+// Ends the search once so much of it is done.
+struct Impatient
+{
+  double enough, last = 0;
+  int asked = 0, refused = 0;
+  bool is_monotone = true, is_share = true;
+
+  explicit Impatient(double share) : enough(share) {}
+  void progress(double share)
+  {
+    is_monotone = is_monotone && share >= last;
+    is_share = is_share && share >= 0 && share < 1;
+    last = share;
+  }
+  bool go_further()
+  {
+    ++asked;
+    refused += last >= enough;
+    return last < enough;
+  }
+};
+
+BOOST_AUTO_TEST_CASE(a_search_can_be_ended)
+{
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  // Without overlap: the longest search there is.
+  const Scan &source = view(0, 0).scan, &target = view(1, 90).scan;
+  const Result whole = CR::register_scans(source, target);
+
+  Impatient patient(1);
+  check_same_bits(whole, CR::register_scans(source, target, p::visitor(std::ref(patient))));
+  BOOST_TEST(patient.asked > 5);
+  BOOST_TEST(patient.is_monotone);
+  BOOST_TEST(patient.is_share);
+  check_same_bits(whole, CR::register_scans(source, target, p::time_budget(1000)));
+
+  for (double share : {0., patient.last}) {
+    Impatient impatient(share);
+    const auto start = Clock::now();
+    const Result result =
+        CR::register_scans<CGAL::Parallel_if_available_tag>(source, target, p::visitor(std::ref(impatient)));
+    check_proper(result);
+    BOOST_TEST(result.status() != CR::REGISTERED);
+    BOOST_TEST(result.confidence() <= 0.5);
+    BOOST_TEST(result.reason().find("interrupted") == 0);
+    BOOST_TEST(impatient.refused == 1);
+    BOOST_TEST(seconds(start) < 10); // a bound for any machine; no measure
+  }
+  for (double budget : {1e-6, 1e-3, 2e-2}) {
+    const Result result = CR::register_scans(source, target, p::time_budget(budget));
+    check_proper(result);
+    BOOST_TEST(result.status() != CR::REGISTERED);
+  }
+  // What is found before the end stays found.
+  const Result certain = CR::register_scans(source, view(0, 45).scan, p::time_budget(1000).visitor(Impatient(1)));
+  BOOST_TEST(certain.status() == CR::REGISTERED);
+
+  struct Failing
+  {
+    void progress(double) {}
+    bool go_further() { throw std::runtime_error("enough"); }
+  };
+  BOOST_CHECK_EXCEPTION(CR::register_scans(source, target, p::visitor(Failing())), std::runtime_error,
+                        [](const std::runtime_error& e) { return e.what() == std::string("enough"); });
+}
+
 BOOST_AUTO_TEST_CASE(extents_of_the_axes)
 {
   namespace p = CR::parameters;
@@ -514,6 +584,9 @@ BOOST_AUTO_TEST_CASE(wrong_use_names_the_argument)
   rejects(p::maximum_extent(0.), "maximum_extent");
   rejects(p::minimum_extent(-0.1), "minimum_extent");
   rejects(p::minimum_extent(nan), "minimum_extent");
+  rejects(p::time_budget(0), "time_budget");
+  rejects(p::time_budget(-1.), "time_budget");
+  rejects(p::time_budget(nan), "time_budget");
   rejects(p::maximum_extent(-0.1), "maximum_extent");
   rejects(p::maximum_extent(infinity), "maximum_extent");
 

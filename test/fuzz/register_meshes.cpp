@@ -63,8 +63,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     round.kept = 8;
     round.judged = 3;
   }
+  CR::internal::Run_control to_the_end;
   const auto result =
-      CR::internal::to_result<Kernel>(CR::internal::register_prepared_scans(source, target, short_search));
+      CR::internal::to_result<Kernel>(CR::internal::register_prepared_scans(source, target, short_search, to_the_end));
   const bool is_sound = is_rigid(result.transformation()) && is_rigid(result.crude_transformation()) &&
                         result.confidence() >= 0 && result.confidence() <= 1 && std::isfinite(result.overlap()) &&
                         std::isfinite(result.residual()) && !result.covariance().hasNaN() &&

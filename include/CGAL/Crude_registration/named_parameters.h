@@ -27,6 +27,7 @@
   ADD(minimum_extent)                                                                                                  \
   ADD(number_of_vertices)                                                                                              \
   ADD(sampling_distance)                                                                                               \
+  ADD(time_budget)                                                                                                     \
   ADD(tolerance)                                                                                                       \
   ADD(viewing_direction)                                                                                               \
   ADD(viewpoint)
@@ -39,7 +40,8 @@
   ADD(point_t, point_map)                                                                                              \
   ADD(random_seed_t, random_seed)                                                                                      \
   ADD(vertex_normal_map_t, vertex_normal_map)                                                                          \
-  ADD(vertex_point_t, vertex_point_map)
+  ADD(vertex_point_t, vertex_point_map)                                                                                \
+  ADD(visitor_t, visitor)
 
 namespace CGAL {
 namespace Crude_registration {

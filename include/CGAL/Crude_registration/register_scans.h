@@ -79,16 +79,23 @@ knowledge of how they lie, and says whether it is to be believed.
 \param source, target the scans; their sensors, where known, are part of them
 \param np optional named parameters: `minimum_extent` and `maximum_extent`, \f$ f_1 \f$ and \f$ f_2 \f$ of the
        paper, as shares of the scan's size \f$ M \f$: the least and greatest length of the axes of trihedra (0 and 1
-       if not given)
+       if not given); `time_budget`, seconds after which the search ends; `visitor`, an object (or a
+       `std::reference_wrapper` of one) with `void progress(double)`, told the share of the work that is done at most,
+       and `bool go_further()`, which ends the search by `false`. They are called by the calling thread, about once a
+       millisecond.
 
 \return the answer; a failure is a status with its reason. `transformation()` maps the source to the target; source and
          target exchanged give the inverse.
 
 \throws std::invalid_argument if `minimum_extent` or `maximum_extent` is negative or not finite, or the former is not
-        less than the latter.
+        less than the latter, or `time_budget` is not a finite number above zero.
 
-The result depends on nothing but the two scans. Complexity: bounded by the number of looks of the last round of the
-search, whatever the size of the scans.
+A search that is ended by its budget or its visitor returns within some hundredths of a second. Its status is then not
+`REGISTERED`: the best motion so far is `AMBIGUOUS`, if it is plausible, as its rivals have not been looked for; the
+reason says so. What is thrown by the visitor is passed on.
+
+Otherwise the result depends on nothing but the two scans. Complexity: bounded by the number of looks of the last round
+of the search, whatever the size of the scans.
 */
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Kernel,
           class NamedParameters = parameters::Default_named_parameters>
@@ -100,8 +107,9 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
   const double f2 =
       internal::non_negative_parameter(np, internal_np::maximum_extent, 1, "register_scans", "maximum_extent");
   if (!(f1 < f2)) throw std::invalid_argument("register_scans: minimum_extent has to be less than maximum_extent");
+  internal::Run_control control(internal::visitor_parameter(np), internal::time_budget_parameter(np, "register_scans"));
   return internal::to_result<Kernel>(internal::register_prepared_scans<ConcurrencyTag>(
-      source.prepared(), target.prepared(), internal::parameters_within(f1, f2)));
+      source.prepared(), target.prepared(), internal::parameters_within(f1, f2), control));
 }
 
 /*!

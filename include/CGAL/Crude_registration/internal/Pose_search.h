@@ -209,8 +209,10 @@ template <class ConcurrencyTag = CGAL::Sequential_tag>
 class Pose_search
 {
 public:
-  Pose_search(const Prepared_scan& source, const Prepared_scan& target, Search_parameters parameters = {})
-      : m_source(source), m_target(target), m_parameters(std::move(parameters))
+  // `control`: kept by reference.
+  Pose_search(const Prepared_scan& source, const Prepared_scan& target, Search_parameters parameters,
+              Run_control& control)
+      : m_source(source), m_target(target), m_parameters(std::move(parameters)), m_control(control)
   {
     m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
     m_extent = float((std::min)(source.extent, target.extent));
@@ -231,15 +233,18 @@ public:
     m_fine_target_probes = first(target.fine.probes, 2500);
   }
 
-  // The distinct poses, best first, once one of them is certain or all rounds are done.
+  // The distinct poses, best first, once one of them is certain or all rounds are done; those of the rounds that were
+  // done if the run is stopped.
   // \pre Both scans have at least four surfels.
   std::vector<Judged_pose> operator()()
   {
     std::vector<Judged_pose> judged;
     for (const Search_round& round : m_parameters.rounds) {
+      m_control.advance(&round == &m_parameters.rounds.back() ? 0.25 : 0);
       const std::vector<Candidate> best = refined(next_round(round), round.judged);
       std::vector<Judged_pose> poses(best.size());
-      for_each_index<ConcurrencyTag>(best.size(), [&](std::size_t i) { poses[i] = judge(best[i].pose); });
+      for_each_index<ConcurrencyTag>(best.size(), m_control, [&](std::size_t i) { poses[i] = judge(best[i].pose); });
+      if (m_control.is_stopped()) break;
       m_counts.judged += poses.size();
       for (const Judged_pose& p : poses) add_distinct(p, judged);
       if (is_certain(judged)) break;
@@ -281,7 +286,7 @@ public:
     const std::vector<std::int32_t> target_indices = first(m_target.coarse.probes, 200);
     const auto refine = [&](std::size_t probes, std::initializer_list<float> reaches) {
       const std::vector<std::int32_t> indices = first(m_source.coarse.probes, probes);
-      for_each_index<ConcurrencyTag>(candidates.size(), [&](std::size_t i) {
+      for_each_index<ConcurrencyTag>(candidates.size(), m_control, [&](std::size_t i) {
         Candidate& c = candidates[i];
         for (float reach : reaches)
           if (refine_step(m_source.coarse, indices, m_target.coarse, {reach * m_spacing, 0.7f}, c.pose) < 6) break;
@@ -423,7 +428,7 @@ private:
   // come first.
   void score(std::vector<Candidate>& candidates, std::size_t probes, std::size_t stride = 0) const
   {
-    for_each_index<ConcurrencyTag>(candidates.size(), [&](std::size_t i) {
+    for_each_index<ConcurrencyTag>(candidates.size(), m_control, [&](std::size_t i) {
       Candidate& c = candidates[i];
       const Agreement a =
           agreement(m_source, m_source.coarse, Probes(m_source.coarse.probes, i * stride, probes), m_target,
@@ -545,9 +550,11 @@ private:
     // In blocks of the same size whatever the number of threads.
     constexpr std::size_t block = 128;
     std::vector<Candidate> candidates;
-    for (std::size_t from = 0; from < chosen.size() && candidates.size() <= most_candidates; from += block) {
+    for (std::size_t from = 0; from < chosen.size() && candidates.size() <= most_candidates && m_control.go_on();
+         from += block) {
       std::vector<Matches> found((std::min)(block, chosen.size() - from));
-      for_each_index<ConcurrencyTag>(found.size(), [&](std::size_t i) { found[i] = match(*chosen[from + i], round); });
+      for_each_index<ConcurrencyTag>(found.size(), m_control,
+                                     [&](std::size_t i) { found[i] = match(*chosen[from + i], round); });
       for (const Matches& m : found) {
         m_counts.looks += m.looks;
         m_counts.hits += m.hits;
@@ -595,6 +602,7 @@ private:
   const Prepared_scan& m_source;
   const Prepared_scan& m_target;
   const Search_parameters m_parameters;
+  Run_control& m_control;
   float m_spacing = 0, m_extent = 0, m_curvature_noise = 1;
   Tolerance m_coarse_tolerance, m_fine_tolerance;
   Point_grid m_grid;

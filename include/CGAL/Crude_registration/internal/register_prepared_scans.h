@@ -163,6 +163,17 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, const Fit& fit
   return verdict;
 }
 
+// What is to be believed of poses whose rivals have not all been looked for.
+inline Verdict interrupted(const std::vector<Judged_pose>& poses, const Fit& fit)
+{
+  Verdict verdict;
+  verdict.confidence = (std::min)(0.5, confidence_without_equals(poses, fit));
+  const bool is_plausible = verdict.confidence >= 0.5;
+  verdict.status = is_plausible ? AMBIGUOUS : NOT_REGISTERED;
+  verdict.reason = is_plausible ? "interrupted: the best motion so far" : "interrupted: no overlap found so far";
+  return verdict;
+}
+
 // The noise of a level, in the unit of length; what sampling alone makes up is at least a fiftieth of the spacing.
 inline double noise(const Surfel_level& level)
 {
@@ -240,7 +251,7 @@ std::vector<Vector_6> free_motions(const Search& search, const Rigid_motion& mot
 // a and b are source and target.
 template <class ConcurrencyTag = CGAL::Sequential_tag>
 Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepared_scan& b,
-                                             const Search_parameters& parameters = {})
+                                             const Search_parameters& parameters, Run_control& control)
 {
   Registration_outcome outcome;
   outcome.source_has_free_space = a.depths.is_known();
@@ -256,7 +267,7 @@ Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepa
     return outcome;
   }
   const auto start = std::chrono::steady_clock::now();
-  Pose_search<ConcurrencyTag> search(source, target, parameters);
+  Pose_search<ConcurrencyTag> search(source, target, parameters, control);
   outcome.poses = search();
   outcome.counts = search.counts();
   const auto middle = std::chrono::steady_clock::now();
@@ -296,7 +307,8 @@ Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepa
                    outcome.refinement.residual / (std::max)(noise(source.fine), noise(target.fine)),
                    outcome.refinement.free_motions.size()};
   }
-  outcome.verdict = judge_poses(outcome.poses, outcome.fit, outcome.free_motions);
+  outcome.verdict = control.is_stopped() ? interrupted(outcome.poses, outcome.fit)
+                                         : judge_poses(outcome.poses, outcome.fit, outcome.free_motions);
   outcome.refine_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
   return outcome;
 }
