@@ -9,6 +9,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "generated_room.h"
+#include "mesh_of.h"
 #include "range_images.h"
 #include "wrong_use.h"
 
@@ -316,6 +317,27 @@ BOOST_AUTO_TEST_CASE(any_range_and_mesh_will_do)
   BOOST_TEST(is_manifold(polyhedron));
   const Mesh fewer = triangulated(points, parameters::viewing_direction(down).maximum_edge_ratio(1.2));
   BOOST_TEST(fewer.number_of_faces() < mesh.number_of_faces());
+}
+
+BOOST_AUTO_TEST_CASE(the_same_points_give_the_same_faces_whatever_was_allocated_before)
+{
+  // A heap with gaps: what is allocated next is here and there.
+  std::mt19937 engine(1);
+  std::vector<std::vector<char>> allocated;
+  for (int i = 0; i < 20000; ++i) allocated.emplace_back(16 + engine() % 1500);
+  std::vector<Point> points;
+  for (const Vector& v : generated::bumps(40, 1, 0.005).points) points.push_back(point(v));
+  std::vector<CR::internal::Flat_mesh> meshes;
+  for (int i = 0; i < 4; ++i) {
+    Mesh mesh;
+    CR::triangulate_points(points, mesh);
+    meshes.push_back(flat_mesh_of(mesh));
+    for (int k = 0; k < 5000; ++k) allocated[engine() % allocated.size()] = std::vector<char>(16 + engine() % 1500);
+  }
+  for (const auto& mesh : meshes) {
+    BOOST_TEST((mesh.faces == meshes.front().faces));
+    BOOST_TEST((mesh.points == meshes.front().points));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(wrong_arguments_are_refused)

@@ -239,6 +239,7 @@ public:
   std::vector<Judged_pose> operator()()
   {
     std::vector<Judged_pose> judged;
+    if (m_origins.empty()) return judged; // a ribbon: all of its surfels are on the border
     for (const Search_round& round : m_parameters.rounds) {
       m_control.advance(&round == &m_parameters.rounds.back() ? 0.25 : 0);
       const std::vector<Candidate> best = refined(next_round(round), round.judged);
@@ -547,12 +548,15 @@ private:
       looks[p.scale] -= p.count;
       chosen.push_back(&p);
     }
-    // In blocks of the same size whatever the number of threads.
+    // In blocks that are the same whatever the number of threads, and that hold no more matches than are wanted: of
+    // planes and spheres a single pair has thousands.
     constexpr std::size_t block = 128;
     std::vector<Candidate> candidates;
-    for (std::size_t from = 0; from < chosen.size() && candidates.size() <= most_candidates && m_control.go_on();
-         from += block) {
-      std::vector<Matches> found((std::min)(block, chosen.size() - from));
+    for (std::size_t from = 0, to = 0;
+         from < chosen.size() && candidates.size() <= most_candidates && m_control.go_on(); from = to) {
+      for (std::size_t n = candidates.size(); to < chosen.size() && to - from < block && n <= most_candidates; ++to)
+        n += chosen[to]->count;
+      std::vector<Matches> found(to - from);
       for_each_index<ConcurrencyTag>(found.size(), m_control,
                                      [&](std::size_t i) { found[i] = match(*chosen[from + i], round); });
       for (const Matches& m : found) {

@@ -9,10 +9,10 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SURFACE_FROM_POINTS_H
 
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/advancing_front.h>
 #include <CGAL/Crude_registration/internal/flat_mesh_repair.h>
 #include <CGAL/Crude_registration/internal/likely_viewpoint.h>
 
-#include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <Eigen/Eigenvalues>
@@ -169,10 +169,7 @@ private:
       const Vector q = (p - m_centroid) / m_spacing;
       input.emplace_back(q.x(), q.y(), q.z());
     }
-    std::vector<std::array<std::size_t, 3>> faces;
-    CGAL::advancing_front_surface_reconstruction(input.begin(), input.end(), std::back_inserter(faces),
-                                                 Priority{m_ratio * m_ratio / 4});
-    for (const auto& f : faces)
+    for (const auto& f : advancing_front(input, Priority{m_ratio * m_ratio / 4}))
       mesh.faces.push_back(
           {static_cast<std::int32_t>(f[0]), static_cast<std::int32_t>(f[1]), static_cast<std::int32_t>(f[2])});
   }
