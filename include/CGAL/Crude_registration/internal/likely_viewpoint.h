@@ -49,8 +49,9 @@ public:
     if (m_mesh.faces.empty()) return false;
     build();
     std::vector<Place> places = all_places();
-    keep_best(places, 0, 100, 40);
-    keep_best(places, 100, 2000, places.size());
+    keep_best(places, 0, 150, 150);
+    keep_best(places, 150, 500, 40);
+    keep_best(places, 650, 3000, places.size());
     constexpr double all = 0.95, most = 0.7, half_of_the_sphere = 0.5;
     for (const Place& p : places)
       if (p.visible >= all && is_looked_at(p.position)) return false;
