@@ -434,8 +434,15 @@ BOOST_AUTO_TEST_CASE(free_space)
   BOOST_TEST(!prepare_scan(generated::sphere(40, 1), no_sensor).depths.is_known());
   BOOST_TEST(!prepare_scan(generated::torus(120, 60, 2, 1), no_sensor).depths.is_known());
 
-  // Without a sensor along the mean normal, above the surface.
+  // Without a sensor along the mean normal, above the surface; unless it hides what was seen.
   const Flat_mesh bumps = generated::bumps(130);
+  Flat_mesh two_floors = bumps;
+  for (const Vector& p : bumps.points) two_floors.points.push_back(p + Vector(0, 0, 0.6));
+  for (const auto& f : bumps.faces) {
+    const auto n = std::int32_t(bumps.points.size());
+    two_floors.faces.push_back({f[0] + n, f[1] + n, f[2] + n});
+  }
+  BOOST_TEST(!prepare_scan(two_floors, no_sensor).depths.is_known());
   const auto is_free = [](const Prepared_scan& scan, const Vector& p) {
     return scan.depths.in_front(scan.own_from_input(p).cast<float>()) > 0;
   };

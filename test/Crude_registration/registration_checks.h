@@ -86,6 +86,7 @@ inline void check_sound(const Result& result)
   BOOST_TEST(result.confidence() >= 0);
   BOOST_TEST(result.confidence() <= 1);
   BOOST_TEST(!result.covariance().hasNaN(), result.status() << ", " << result.reason());
+  BOOST_TEST((result.status() == CR::NOT_REGISTERED || result.covariance() == result.covariance().transpose()));
   BOOST_TEST(std::isfinite(result.overlap()));
   BOOST_TEST(std::isfinite(result.residual()));
   BOOST_TEST(std::isfinite(result.score()));

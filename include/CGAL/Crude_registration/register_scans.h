@@ -124,6 +124,8 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
        `geom_traits` sets the kernel of the result) and for the registration (see `register_scans()`)
 \param np_target named parameters for the target
 
+A time budget or a visitor ends the search, not the preparation of the scans.
+
 \throws std::invalid_argument as `Scan` and `register_scans()` do; the text names the argument.
 */
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Source, class Target,

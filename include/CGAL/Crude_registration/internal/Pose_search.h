@@ -136,7 +136,8 @@ Agreement agreement(const Prepared_scan& source, const Surfel_level& source_leve
   return a;
 }
 
-// Some of the probes of a level: `n` in a row, from one that is so many on, from the front again at the end.
+// Some of the probes of a level, which are kept by reference: `n` in a row, from the one that is `from` on, from the
+// front again at the end.
 class Probes
 {
 public:
@@ -212,7 +213,8 @@ public:
   // `control`: kept by reference.
   Pose_search(const Prepared_scan& source, const Prepared_scan& target, Search_parameters parameters,
               Run_control& control)
-      : m_source(source), m_target(target), m_parameters(std::move(parameters)), m_control(control)
+      : m_source(source), m_target(target), m_parameters(std::move(parameters)), m_control(control),
+        m_fine_source_probes(source.fine.probes, 0, 2500), m_fine_target_probes(target.fine.probes, 0, 2500)
   {
     m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
     m_extent = float((std::min)(source.extent, target.extent));
@@ -229,8 +231,6 @@ public:
     m_grid = Point_grid(points, double(2 * m_spacing));
     for (const std::int32_t v : shuffled(source.coarse.surfels.size(), 1))
       if (!source.coarse.borders[std::size_t(v)]) m_origins.push_back(v);
-    m_fine_source_probes = first(source.fine.probes, 2500);
-    m_fine_target_probes = first(target.fine.probes, 2500);
   }
 
   // The distinct poses, best first, once one of them is certain or all rounds are done; those of the rounds that were
@@ -241,6 +241,7 @@ public:
     std::vector<Judged_pose> judged;
     if (m_origins.empty()) return judged; // a ribbon: all of its surfels are on the border
     for (const Search_round& round : m_parameters.rounds) {
+      // The last round is most of the work.
       m_control.advance(&round == &m_parameters.rounds.back() ? 0.25 : 0);
       const std::vector<Candidate> best = refined(next_round(round), round.judged);
       std::vector<Judged_pose> poses(best.size());
@@ -284,15 +285,16 @@ public:
   std::vector<Candidate> refined(std::vector<Candidate> candidates, std::size_t number)
   {
     m_counts.refined += candidates.size();
-    const std::vector<std::int32_t> target_indices = first(m_target.coarse.probes, 200);
-    const auto refine = [&](std::size_t probes, std::initializer_list<float> reaches) {
-      const std::vector<std::int32_t> indices = first(m_source.coarse.probes, probes);
+    const Probes target_probes(m_target.coarse.probes, 0, 200);
+    const auto refine = [&](std::size_t number_of_probes, std::initializer_list<float> reaches) {
+      const Probes source_probes(m_source.coarse.probes, 0, number_of_probes);
       for_each_index<ConcurrencyTag>(candidates.size(), m_control, [&](std::size_t i) {
         Candidate& c = candidates[i];
         for (float reach : reaches)
-          if (refine_step(m_source.coarse, indices, m_target.coarse, {reach * m_spacing, 0.7f}, c.pose) < 6) break;
+          if (refine_step(m_source.coarse, source_probes, m_target.coarse, {reach * m_spacing, 0.7f}, c.pose) < 6)
+            break;
         const Agreement a =
-            agreement(m_source, m_source.coarse, indices, m_target, m_target.coarse, target_indices, c.pose,
+            agreement(m_source, m_source.coarse, source_probes, m_target, m_target.coarse, target_probes, c.pose,
                       m_coarse_tolerance.distance, m_coarse_tolerance.minimal_cosine, 1.2f * m_spacing);
         c.score = a.overlap - 1.5f * a.violations;
       });
@@ -358,12 +360,6 @@ private:
                 turn = times_normal * (std::max)(a.normal_noise, b.normal_noise);
     return {(std::max)(a.spacing, b.spacing) * (std::min)((std::max)(height, 0.05f), 1.f),
             std::cos((std::min)((std::max)(turn, 0.2f), 0.7f))};
-  }
-
-  static std::vector<std::int32_t> first(std::vector<std::int32_t> indices, std::size_t n)
-  {
-    if (indices.size() > n) indices.resize(n);
-    return indices;
   }
 
   static void sort_by_score(std::vector<Candidate>& candidates)
@@ -607,10 +603,11 @@ private:
   const Prepared_scan& m_target;
   const Search_parameters m_parameters;
   Run_control& m_control;
+  const Probes m_fine_source_probes, m_fine_target_probes;
   float m_spacing = 0, m_extent = 0, m_curvature_noise = 1;
   Tolerance m_coarse_tolerance, m_fine_tolerance;
   Point_grid m_grid;
-  std::vector<std::int32_t> m_origins, m_fine_source_probes, m_fine_target_probes;
+  std::vector<std::int32_t> m_origins;
   std::vector<std::pair<float, Surfel_pair_index>> m_indices;
   std::size_t m_next_origin = 0;
   Search_counts m_counts;

@@ -315,7 +315,7 @@ inline Vector_f likely_viewing_direction(const Oriented_samples& samples)
 
 // The share of the points that are further than `depth` behind what was seen in front of them. A scan's own points were
 // all seen.
-inline double hidden(const Depth_buffer& depths, const std::vector<Vector_f>& points, float depth)
+inline double hidden_share(const Depth_buffer& depths, const std::vector<Vector_f>& points, float depth)
 {
   std::size_t known = 0, hidden = 0;
   for (const Vector_f& p : points) {
@@ -388,8 +388,8 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
   } else {
     const Vector_f likely = likely_viewing_direction(samples);
     if (!likely.isZero()) {
-      const Depth_buffer depths(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell);
-      if (hidden(depths, samples.points, float(0.1 * scan.extent)) < 0.02) scan.depths = depths;
+      Depth_buffer depths(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell);
+      if (hidden_share(depths, samples.points, float(0.1 * scan.extent)) < 0.02) scan.depths = std::move(depths);
     }
   }
   return scan;

@@ -106,14 +106,15 @@ private:
     return places;
   }
 
-  // Tells the places by the vertices numbered from .. from + n - 1.
+  // Leaves the places from where most of `n` vertices are visible: from the one numbered `from` on, around the end.
   void keep_best(std::vector<Place>& places, std::size_t from, std::size_t n, std::size_t kept) const
   {
-    const std::size_t end = (std::min)(from + n, m_vertices.size()), begin = (std::min)(from, end - 1);
+    n = (std::min)(n, m_vertices.size());
     for (Place& p : places) {
       std::size_t visible = 0;
-      for (std::size_t i = begin; i < end; ++i) visible += is_visible(position(m_vertices[i]), p.position);
-      p.visible = static_cast<double>(visible) / static_cast<double>(end - begin);
+      for (std::size_t i = from; i < from + n; ++i)
+        visible += is_visible(position(m_vertices[i % m_vertices.size()]), p.position);
+      p.visible = static_cast<double>(visible) / static_cast<double>(n);
     }
     std::stable_sort(places.begin(), places.end(),
                      [](const Place& a, const Place& b) { return a.visible > b.visible; });

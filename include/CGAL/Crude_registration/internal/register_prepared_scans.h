@@ -106,6 +106,9 @@ inline bool are_swapped(const Prepared_scan& source, const Prepared_scan& target
   return source.extent > target.extent;
 }
 
+// The confidence from which on a motion is worth an answer.
+constexpr double plausible = 0.5;
+
 // The share of the best score from which on a distinct pose is as good as the best one.
 constexpr double as_good = 0.85;
 
@@ -142,7 +145,7 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, const Fit& fit
     verdict.reason = "no overlap found: no motion brings any part of the scans together";
     return verdict;
   }
-  constexpr double believed = 0.9, plausible = 0.5;
+  constexpr double believed = 0.9;
   const double confidence = confidence_without_equals(poses, fit);
   const std::size_t equals = number_of_equals(poses);
   verdict.confidence = confidence / double(equals);
@@ -167,8 +170,9 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, const Fit& fit
 inline Verdict interrupted(const std::vector<Judged_pose>& poses, const Fit& fit)
 {
   Verdict verdict;
-  verdict.confidence = (std::min)(0.5, confidence_without_equals(poses, fit));
-  const bool is_plausible = verdict.confidence >= 0.5;
+  const double confidence = confidence_without_equals(poses, fit);
+  const bool is_plausible = confidence >= plausible;
+  verdict.confidence = (std::min)(0.5, confidence); // a rival may be as good
   verdict.status = is_plausible ? AMBIGUOUS : NOT_REGISTERED;
   verdict.reason = is_plausible ? "interrupted: the best motion so far" : "interrupted: no overlap found so far";
   return verdict;
@@ -302,7 +306,8 @@ Registration_outcome register_prepared_scans(const Prepared_scan& a, const Prepa
     // The deviation follows the motion; seen from the other side it goes through the inverse.
     const Matrix_6 to_input =
         outcome.is_swapped ? Matrix_6(adjoint(outcome.motion) * target_to_input) : target_to_input;
-    outcome.covariance = to_input * outcome.refinement.covariance * to_input.transpose();
+    const Matrix_6 covariance = to_input * outcome.refinement.covariance * to_input.transpose();
+    outcome.covariance = 0.5 * (covariance + covariance.transpose()); // to the last bit
     outcome.fit = {double((std::min)(source.fine.surfels.size(), target.fine.surfels.size())), outcome.residual,
                    outcome.refinement.residual / (std::max)(noise(source.fine), noise(target.fine)),
                    outcome.refinement.free_motions.size()};
