@@ -62,24 +62,22 @@ public:
   template <class Function>
   void for_each_within(const Vector& p, double radius, Function&& f) const
   {
-    std::array<std::int32_t, 3> from, to;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto k = Eigen::Index(i);
-      const double low = (p[k] - radius - m_low[k]) * m_scale, high = (p[k] + radius - m_low[k]) * m_scale;
-      if (!(high >= 0) || !(low < m_cells[i])) return;
-      from[i] = low > 0 ? std::int32_t(low) : 0;
-      to[i] = high < m_cells[i] ? std::int32_t(high) : m_cells[i] - 1;
+    for_each_row(p, radius, [&](std::size_t from, std::size_t to) { for_each_of(p, radius, from, to, f); });
+  }
+
+  // f(index, other index, squared distance) for every pair of points within `radius` of each other, once, in an order
+  // fixed by the points alone, as long as f returns true.
+  template <class Function>
+  void for_each_pair_within(double radius, Function&& f) const
+  {
+    bool go_on = true;
+    for (std::size_t e = 0; e < m_entries.size() && go_on; ++e) {
+      const Entry& first = m_entries[e];
+      for_each_row(first.point, radius, [&](std::size_t from, std::size_t to) {
+        for_each_of(first.point, radius, (std::max)(from, e + 1), to,
+                    [&](std::int32_t j, double d) { go_on = go_on && f(first.index, j, d); });
+      });
     }
-    const double most = radius * radius;
-    for (std::int32_t z = from[2]; z <= to[2]; ++z)
-      for (std::int32_t y = from[1]; y <= to[1]; ++y) {
-        // The cells of a row follow each other, and so do their entries.
-        const auto end = std::size_t(m_begin[cell(to[0], y, z) + 1]);
-        for (auto e = std::size_t(m_begin[cell(from[0], y, z)]); e < end; ++e) {
-          const double d = (m_entries[e].point - p).squaredNorm();
-          if (d <= most) f(m_entries[e].index, d);
-        }
-      }
   }
 
 private:
@@ -88,6 +86,44 @@ private:
     Vector point;
     std::int32_t index;
   };
+
+  // f(from, to) for the entries of each row of cells that `radius` around p meets.
+  template <class Function>
+  void for_each_row(const Vector& p, double radius, Function&& f) const
+  {
+    std::array<std::int32_t, 3> from, to;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto k = Eigen::Index(i);
+      const double low = (p[k] - radius - m_low[k]) * m_scale, high = (p[k] + radius - m_low[k]) * m_scale;
+      if (!(high >= 0) || !(low < m_cells[i])) return;
+      from[i] = low > 0 ? std::int32_t(low) : 0;
+      to[i] = high < m_cells[i] ? std::int32_t(high) : m_cells[i] - 1;
+    }
+    // The cells of a row follow each other, and so do their entries.
+    for (std::int32_t z = from[2]; z <= to[2]; ++z)
+      for (std::int32_t y = from[1]; y <= to[1]; ++y)
+        f(std::size_t(m_begin[cell(from[0], y, z)]), std::size_t(m_begin[cell(to[0], y, z) + 1]));
+  }
+
+  // f(index, squared distance) for those of the entries that are within `radius` of p. About half of them are, so they
+  // are first collected, without a branch, some at a time.
+  template <class Function>
+  void for_each_of(const Vector& p, double radius, std::size_t from, std::size_t to, Function&& f) const
+  {
+    constexpr std::size_t most = 32;
+    std::array<std::int32_t, most> indices;
+    std::array<double, most> distances;
+    while (from < to) {
+      const std::size_t end = (std::min)(to, from + most);
+      std::size_t n = 0;
+      for (; from < end; ++from) {
+        indices[n] = m_entries[from].index;
+        distances[n] = (m_entries[from].point - p).squaredNorm();
+        n += distances[n] <= radius * radius;
+      }
+      for (std::size_t k = 0; k < n; ++k) f(indices[k], distances[k]);
+    }
+  }
 
   std::int32_t coordinate(std::size_t i, const Vector& p) const
   {

@@ -322,7 +322,11 @@ public:
   Judged_pose judge(Pose pose) const
   {
     const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
-    for (float reach : {2.f, 2.f, 2.f, 1.25f, 1.25f, 0.75f})
+    // The first steps are the longest, and fewer probes tell them.
+    const Probes some(m_source.fine.probes, 0, 800);
+    for (float reach : {2.f, 2.f, 2.f, 1.25f})
+      if (refine_step(m_source.fine, some, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
+    for (float reach : {1.25f, 0.75f})
       if (refine_step(m_source.fine, m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
     return assess(pose);
   }
