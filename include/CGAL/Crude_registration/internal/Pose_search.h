@@ -112,22 +112,22 @@ Agreement agreement(const Prepared_scan& source, const Surfel_level& source_leve
                     const Pose& pose, float distance, float minimal_cosine, float free_depth)
 {
   int overlap = 0, violations = 0;
+  const bool target_is_known = target.depths.is_known();
   for (const auto i : source_indices) {
     const Surfel& s = source_level.surfels[std::size_t(i)];
     const Vector_f p = pose(s.position);
     const int j = target_level.field.nearest(p);
     if (j >= 0) {
       const Surfel& t = target_level.surfels[std::size_t(j)];
-      if (std::abs(t.normal.dot(p - t.position)) <= distance &&
-          (pose.rotation * s.normal).dot(t.normal) >= minimal_cosine)
-        ++overlap;
+      overlap += (std::abs(t.normal.dot(p - t.position)) <= distance) &
+                 ((pose.rotation * s.normal).dot(t.normal) >= minimal_cosine);
     }
-    if (target.depths.is_known() && target.depths.in_front(p) > free_depth) ++violations;
+    if (target_is_known) violations += target.depths.in_front(p) > free_depth;
   }
   if (source.depths.is_known()) {
     const Pose back = pose.inverse();
     for (const auto i : target_indices)
-      if (source.depths.in_front(back(target_level.surfels[std::size_t(i)].position)) > free_depth) ++violations;
+      violations += source.depths.in_front(back(target_level.surfels[std::size_t(i)].position)) > free_depth;
   }
   Agreement a;
   const float n = float(source_indices.size());
@@ -577,26 +577,35 @@ private:
                  &b = m_source.coarse.surfels[std::size_t(p.second)];
     const Vector_f middle = 0.5f * (a.position + b.position);
     const Matrix_f source_frame = pair_frame(a, b).transpose();
-    const Pair_curvatures curvatures = Pair_curvatures::of(a, b);
-    const int tolerance = int(float(round.curvature_tolerance) * m_curvature_noise);
+    const Curvature_window window(Pair_curvatures::of(a, b), int(float(round.curvature_tolerance) * m_curvature_noise));
+    const auto examine = [&](const Surfel_pair_index::Entry& e) {
+      const Surfel &c = m_target.coarse.surfels[e.first], &c1 = m_target.coarse.surfels[e.second];
+      const Matrix_f frame = pair_frame(c, c1);
+      const Vector_f there = 0.5f * (c.position + c1.position);
+      if (!has_counterpart(witnesses[0], frame, there) || !has_counterpart(witnesses[1], frame, there)) return;
+      int support = 2;
+      const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
+      for (int w = 2; w < n && support + n - w >= needed; ++w)
+        support += has_counterpart(witnesses[std::size_t(w)], frame, there);
+      if (support < needed) return;
+      Pose pose;
+      pose.rotation = frame * source_frame;
+      pose.translation = there - pose.rotation * middle;
+      matches.candidates.push_back({pose, 0});
+    };
     const auto look = [&](const Surfel_pair_index::Entry* from, const Surfel_pair_index::Entry* to) {
       matches.looks += std::size_t(to - from);
-      for (const auto* e = from; e != to; ++e) {
-        if (!curvatures.agrees(e->curvatures, tolerance)) continue;
-        const Surfel &c = m_target.coarse.surfels[e->first], &c1 = m_target.coarse.surfels[e->second];
-        const Matrix_f frame = pair_frame(c, c1);
-        const Vector_f there = 0.5f * (c.position + c1.position);
-        ++matches.hits;
-        if (!has_counterpart(witnesses[0], frame, there) || !has_counterpart(witnesses[1], frame, there)) continue;
-        int support = 2;
-        const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
-        for (int w = 2; w < n && support + n - w >= needed; ++w)
-          support += has_counterpart(witnesses[std::size_t(w)], frame, there);
-        if (support < needed) continue;
-        Pose pose;
-        pose.rotation = frame * source_frame;
-        pose.translation = there - pose.rotation * middle;
-        matches.candidates.push_back({pose, 0});
+      // Some at a time, without a branch: which of them have the curvatures cannot be foretold.
+      std::array<Surfel_pair_index::Entry, 64> hits;
+      while (from != to) {
+        const auto* const end = from + (std::min)(to - from, std::ptrdiff_t(hits.size()));
+        std::size_t n = 0;
+        for (; from != end; ++from) {
+          hits[n] = *from;
+          n += window.contains(from->curvatures);
+        }
+        matches.hits += n;
+        for (std::size_t i = 0; i < n; ++i) examine(hits[i]);
       }
     };
     index_of_scale(round.scales[p.scale]).for_each_run(p.angles, look);

@@ -20,6 +20,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <boost/sort/spreadsort/integer_sort.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -80,8 +82,9 @@ inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std
   for (std::size_t i = 0; i < points.size(); ++i)
     items[i] = {(coordinate(points[i][0]) << 42) | (coordinate(points[i][1]) << 21) | coordinate(points[i][2]),
                 std::uint32_t(i)};
-  std::sort(items.begin(), items.end(),
-            [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  boost::sort::spreadsort::integer_sort(
+      items.begin(), items.end(), [](const Item& a, unsigned shift) { return a.key >> shift; },
+      [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
 
   Surfel_level level;
   level.spacing = cell;
@@ -269,16 +272,15 @@ inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face,
 // The vertices of the faces, as a scan's samples are; where the faces are so large that their vertices do not tell the
 // surface (a CAD model), points spread evenly over the faces, about `distance` from each other. Samples that are seen
 // at a grazing angle lie on the faces that bridge a depth edge: they are left out.
-inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const Rigid_motion& own, const Flat_sensor& sensor,
-                                         double area, double distance)
+inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vector<double>& areas,
+                                         const Rigid_motion& own, const Flat_sensor& sensor, double distance)
 {
   Oriented_samples samples;
   const Matrix_f rotation = own.rotation.cast<float>();
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.);
   double area_of_large_faces = 0;
-  for (const auto& f : mesh.faces) {
-    const double a = 0.5 * area_vector(mesh, f).norm();
+  for (const double a : areas)
     if (a > area / 1000) area_of_large_faces += a;
-  }
   if (sensor.kind == Flat_sensor::UNKNOWN && area_of_large_faces > 0.2 * area) {
     for (const auto& f : mesh.faces) sample_face(mesh, f, own, distance, samples);
     return samples;
@@ -339,12 +341,12 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
     for (const Vector& p : mesh.points) direction += unit_or_zero(p - sensor.vector);
     direction = unit_or_zero(direction);
   }
-  scan.own_from_input = scan_frame(mesh, direction);
+  const std::vector<double> areas = face_areas(mesh);
+  scan.own_from_input = scan_frame(mesh, areas, direction);
   const Rigid_motion& own = scan.own_from_input;
   const Vector size = extent_in_frame(mesh, own);
   scan.extent = size.sum() / 3;
-  double area = 0;
-  for (const auto& f : mesh.faces) area += 0.5 * area_vector(mesh, f).norm();
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.);
   if (!(area > 0)) return scan;
 
   // What is not a surface but dust takes larger cells, until the surfels can be numbered.
@@ -356,7 +358,7 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
   };
   // A surface cuts about 1.5 cells of a cubic grid for each area of the square of their edge length.
   const double finest = std::sqrt(1.5 * area / parameters.fine_surfels);
-  const Oriented_samples samples = samples_of_faces(mesh, own, sensor, area, 0.5 * finest);
+  const Oriented_samples samples = samples_of_faces(mesh, areas, own, sensor, 0.5 * finest);
   scan.number_of_samples = samples.points.size();
   if (samples.points.empty()) return scan;
   scan.spacing = std::sqrt(area / double(samples.points.size()));

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -66,54 +67,69 @@ public:
       m_blocks[std::size_t(i)] = (std::min)(maximum_blocks, int((top - m_low[i]) * m_scale * 0.25f) + 1);
       m_size[i] = float(4 * m_blocks[std::size_t(i)]);
     }
-    m_block_of.assign(std::size_t(m_blocks[0]) * std::size_t(m_blocks[1]) * std::size_t(m_blocks[2]), -1);
-    std::vector<float> distances;
-    const float reach2 = reach * m_scale * reach * m_scale;
+    m_block_of.assign(std::size_t(m_blocks[0]) * std::size_t(m_blocks[1]) * std::size_t(m_blocks[2]), 0);
+    const float reach_in_voxels = reach * m_scale, reach2 = reach_in_voxels * reach_in_voxels;
+    // The bits of the squared distance (in the order of the distances, as they are positive) before those of the
+    // surfel: the least is the nearest, and the first of equally near ones.
+    const auto key = [](float squared_distance, std::uint64_t surfel) {
+      std::uint32_t bits;
+      std::memcpy(&bits, &squared_distance, sizeof bits);
+      return std::uint64_t(bits) << 16 | surfel;
+    };
+    const std::uint64_t out_of_reach = key(reach2, empty);
+    std::vector<std::uint64_t> keys(64, out_of_reach);
+    std::vector<float> z_distances; // squared, of the voxels of each block that is met
     for (std::size_t i = 0; i < surfels.size(); ++i) {
       const Vector_f p = (surfels[i].position - m_low) * m_scale;
       int from[3], to[3];
       bool inside = true;
       for (int k = 0; k < 3; ++k) {
         inside = inside && p[k] >= 0 && p[k] < m_size[k];
-        from[k] = (std::max)(0, int(std::ceil(p[k] - reach * m_scale - 0.5f)));
-        to[k] = (std::min)(int(m_size[k]) - 1, int(std::floor(p[k] + reach * m_scale - 0.5f)));
+        from[k] = (std::max)(0, int(std::ceil(p[k] - reach_in_voxels - 0.5f)));
+        to[k] = (std::min)(int(m_size[k]) - 1, int(std::floor(p[k] + reach_in_voxels - 0.5f)));
       }
       if (!inside) continue;
+      // The voxels of a block follow each other along z: four at a time, without a branch.
+      from[2] &= ~3;
+      z_distances.clear();
+      for (int z = from[2]; z <= (to[2] | 3); ++z) {
+        const float dz = float(z) + 0.5f - p[2];
+        z_distances.push_back(dz * dz);
+      }
       for (int x = from[0]; x <= to[0]; ++x) {
         const float dx = float(x) + 0.5f - p[0];
         for (int y = from[1]; y <= to[1]; ++y) {
           const float dy = float(y) + 0.5f - p[1], dxy = dx * dx + dy * dy;
           if (dxy > reach2) continue;
-          for (int z = from[2]; z <= to[2]; ++z) {
-            const float dz = float(z) + 0.5f - p[2], d = dxy + dz * dz;
-            if (d > reach2) continue;
+          for (int z = from[2]; z <= to[2]; z += 4) {
+            const float* const dz = z_distances.data() + (z - from[2]);
+            if (dxy + (std::min)((std::min)(dz[0], dz[1]), (std::min)(dz[2], dz[3])) > reach2) continue;
             std::int32_t& block = m_block_of[block_index(x, y, z)];
-            if (block < 0) {
-              block = std::int32_t(m_voxels.size() / 64);
-              m_voxels.resize(m_voxels.size() + 64, empty);
-              distances.resize(m_voxels.size(), (std::numeric_limits<float>::max)());
+            if (block == 0) {
+              block = std::int32_t(keys.size() / 64);
+              keys.resize(keys.size() + 64, out_of_reach);
             }
-            const std::size_t v = std::size_t(block) * 64 + voxel_index(x, y, z);
-            if (d < distances[v]) {
-              distances[v] = d;
-              m_voxels[v] = std::uint16_t(i);
-            }
+            std::uint64_t* const voxels = keys.data() + std::size_t(block) * 64 + voxel_index(x, y, z);
+            for (std::size_t k = 0; k < 4; ++k) voxels[k] = (std::min)(voxels[k], key(dxy + dz[k], i));
           }
         }
       }
     }
+    m_voxels.resize(keys.size());
+    std::transform(keys.begin(), keys.end(), m_voxels.begin(), [](std::uint64_t k) { return std::uint16_t(k); });
   }
 
-  // The index of the surfel nearest to the centre of the voxel of `p`, or `none`.
+  // The index of the surfel nearest to the centre of the voxel of `p`, or `none`. Without a branch: which voxels are
+  // empty cannot be foretold, and a wrong guess costs more than the look-up.
   int nearest(const Vector_f& p) const
   {
     const float x = (p[0] - m_low[0]) * m_scale, y = (p[1] - m_low[1]) * m_scale, z = (p[2] - m_low[2]) * m_scale;
-    if (!(x >= 0 && y >= 0 && z >= 0 && x < m_size[0] && y < m_size[1] && z < m_size[2])) return none;
-    const int i = int(x), j = int(y), k = int(z);
-    const std::int32_t block = m_block_of[block_index(i, j, k)];
-    if (block < 0) return none;
-    const std::uint16_t s = m_voxels[std::size_t(block) * 64 + voxel_index(i, j, k)];
-    return s == empty ? none : int(s);
+    const bool is_inside =
+        (x >= 0) & (y >= 0) & (z >= 0) & (x < m_size[0]) & (y < m_size[1]) & (z < m_size[2]); // not where it is NaN
+    const int i = int(is_inside ? x : 0), j = int(is_inside ? y : 0), k = int(is_inside ? z : 0);
+    const auto block = std::size_t(m_block_of[block_index(i, j, k)]);
+    const std::uint16_t s = m_voxels[block * 64 + voxel_index(i, j, k)];
+    return is_inside & (s != empty) ? int(s) : none;
   }
 
 private:
@@ -140,9 +156,9 @@ private:
   Vector_f m_low = Vector_f::Zero();
   Vector_f m_size = Vector_f::Zero(); // in voxels
   float m_scale = 1;
-  std::array<int, 3> m_blocks{};
-  std::vector<std::int32_t> m_block_of;
-  std::vector<std::uint16_t> m_voxels;
+  std::array<int, 3> m_blocks{1, 1, 1};
+  std::vector<std::int32_t> m_block_of{0};
+  std::vector<std::uint16_t> m_voxels = std::vector<std::uint16_t>(64, empty); // the first block is that of nothing
 };
 
 } // namespace internal

@@ -15,6 +15,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cstring>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -43,7 +44,7 @@ inline bool pair_cosines(const Surfel& a, const Surfel& b, Pair_cosines& cosines
   Vector_f d = b.position - a.position;
   const float length = d.norm();
   if (!(length > 0)) return false;
-  d /= length;
+  d *= 1 / length;
   const float ca = a.normal.dot(d), cb = b.normal.dot(d);
   constexpr float most = 0.98f;
   if (!(std::abs(ca) < most && std::abs(cb) < most)) return false;
@@ -67,7 +68,7 @@ inline bool pair_angles(const Surfel& a, const Surfel& b, Pair_angles& angles)
 inline Matrix_f pair_frame(const Surfel& a, const Surfel& b)
 {
   Vector_f x = b.position - a.position;
-  x /= x.norm();
+  x *= 1 / x.norm();
   Vector_f z = a.normal + b.normal;
   z -= z.dot(x) * x;
   float length2 = z.squaredNorm();
@@ -75,7 +76,7 @@ inline Matrix_f pair_frame(const Surfel& a, const Surfel& b)
     z = a.normal - a.normal.dot(x) * x;
     length2 = z.squaredNorm();
   }
-  z /= std::sqrt(length2);
+  z *= 1 / std::sqrt(length2);
   Matrix_f f;
   f.col(0) = x;
   f.col(1) = z.cross(x);
@@ -83,7 +84,7 @@ inline Matrix_f pair_frame(const Surfel& a, const Surfel& b)
   return f;
 }
 
-// The curvatures of a pair, in bytes; agreement is a difference of at most a tolerance in each.
+// The curvatures of a pair, in bytes.
 struct Pair_curvatures
 {
   std::array<std::uint8_t, 4> values;
@@ -95,13 +96,43 @@ struct Pair_curvatures
     return {{quantise(a.minimal_curvature), quantise(a.maximal_curvature), quantise(b.minimal_curvature),
              quantise(b.maximal_curvature)}};
   }
+};
 
-  bool agrees(const Pair_curvatures& o, int tolerance) const
+// The curvatures that differ by at most a tolerance from some.
+class Curvature_window
+{
+public:
+  Curvature_window(const Pair_curvatures& middle, int tolerance)
   {
-    int worst = 0;
-    for (std::size_t i = 0; i < 4; ++i) worst = (std::max)(worst, std::abs(int(values[i]) - int(o.values[i])));
-    return worst <= tolerance;
+    std::array<std::uint8_t, 4> low, high;
+    for (std::size_t i = 0; i < 4; ++i) {
+      low[i] = std::uint8_t((std::max)(int(middle.values[i]) - tolerance, 0));
+      high[i] = std::uint8_t((std::min)(int(middle.values[i]) + tolerance, 255));
+    }
+    m_low = spread(low);
+    m_high = spread(high) | top;
   }
+
+  // All four at once: a difference of 16 bits does not borrow from the next one while the top bit of its minuend is
+  // set, and leaves it set where it is not negative.
+  bool contains(const Pair_curvatures& curvatures) const
+  {
+    const std::uint64_t c = spread(curvatures.values);
+    return (((c | top) - m_low) & (m_high - c) & top) == top;
+  }
+
+private:
+  static constexpr std::uint64_t top = 0x8000800080008000;
+
+  // Each byte in 16 bits of its own, in whichever order.
+  static std::uint64_t spread(const std::array<std::uint8_t, 4>& bytes)
+  {
+    std::uint32_t all;
+    std::memcpy(&all, bytes.data(), sizeof all);
+    return (all & 0x00ff00ffu) | std::uint64_t(all & 0xff00ff00u) << 24;
+  }
+
+  std::uint64_t m_low, m_high;
 };
 
 // All ordered pairs of surfels of a scan whose distance is within `half_width` of `length`, by their angles: one

@@ -40,6 +40,15 @@ inline Vector area_vector(const Flat_mesh& mesh, const std::array<std::int32_t, 
                      mesh.points[std::size_t(face[2])]);
 }
 
+// The area of each face.
+inline std::vector<double> face_areas(const Flat_mesh& mesh)
+{
+  std::vector<double> areas;
+  areas.reserve(mesh.faces.size());
+  for (const auto& f : mesh.faces) areas.push_back(0.5 * area_vector(mesh, f).norm());
+  return areas;
+}
+
 // v / |v|, and the zero vector for v = 0; no squared length over- or underflows.
 inline Vector unit_or_zero(const Vector& v)
 {

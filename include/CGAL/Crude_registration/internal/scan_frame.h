@@ -55,21 +55,22 @@ inline Rigid_motion frame_of_axes(const Vector& x, const Vector& z, const Vector
 // tenth) along the axis of least variance. x is the direction of largest variance in the image plane perpendicular to
 // z. Signs that the normals do not fix are such that the third moment is positive. All moments are integrals over the
 // surface. On a surface of revolution seen along its axis, x has no meaning, on a symmetric one its sign has none.
-inline Rigid_motion scan_frame(const Flat_mesh& mesh, const Vector& viewing_direction = Vector::Zero())
+// `areas`: of the faces.
+inline Rigid_motion scan_frame(const Flat_mesh& mesh, const std::vector<double>& areas, const Vector& viewing_direction)
 {
   const Vector centre = centre_of_box(mesh.points);
   double area = 0;
   Vector normal = Vector::Zero(), first = Vector::Zero();
   Matrix second = Matrix::Zero();
-  for (const auto& f : mesh.faces) {
-    const Vector a = mesh.points[std::size_t(f[0])] - centre, b = mesh.points[std::size_t(f[1])] - centre,
-                 c = mesh.points[std::size_t(f[2])] - centre, sum = a + b + c;
-    const Vector n = area_vector(a, b, c);
-    const double w = n.norm();
-    area += w;
-    normal += n;
-    first += (w / 3) * sum;
-    second += (w / 12) * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+  const auto corner = [&](std::size_t face, std::size_t k) -> Vector {
+    return mesh.points[std::size_t(mesh.faces[face][k])] - centre;
+  };
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const Vector a = corner(i, 0), b = corner(i, 1), c = corner(i, 2), sum = a + b + c;
+    area += areas[i];
+    normal += 0.5 * area_vector(a, b, c);
+    first += (areas[i] / 3) * sum;
+    second += (areas[i] / 12) * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
   if (!(area > 0)) return frame_of_axes(Vector::UnitX(), Vector::UnitZ(), centre);
   const Vector centroid = first / area;
@@ -78,11 +79,9 @@ inline Rigid_motion scan_frame(const Flat_mesh& mesh, const Vector& viewing_dire
   // The sign of the third moment along an axis, faces taken as points.
   const auto skewness = [&](const Vector& axis) {
     double moment = 0;
-    for (const auto& f : mesh.faces) {
-      const Vector &a = mesh.points[std::size_t(f[0])], &b = mesh.points[std::size_t(f[1])],
-                   &c = mesh.points[std::size_t(f[2])];
-      const double t = axis.dot((a - centre) + (b - centre) + (c - centre)) / 3 - axis.dot(centroid);
-      moment += area_vector(a, b, c).norm() * t * t * t;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      const double t = axis.dot((corner(i, 0) + corner(i, 1) + corner(i, 2)) / 3 - centroid);
+      moment += areas[i] * t * t * t;
     }
     return moment;
   };
@@ -107,16 +106,24 @@ inline Rigid_motion scan_frame(const Flat_mesh& mesh, const Vector& viewing_dire
   return frame_of_axes(x, z, centre + centroid);
 }
 
+inline Rigid_motion scan_frame(const Flat_mesh& mesh, const Vector& viewing_direction = Vector::Zero())
+{
+  return scan_frame(mesh, face_areas(mesh), viewing_direction);
+}
+
 // The edge lengths, along the axes of `frame`, of the box that contains the vertices of the faces.
 inline Vector extent_in_frame(const Flat_mesh& mesh, const Rigid_motion& frame)
 {
-  Vector low = Vector::Constant((std::numeric_limits<double>::max)()), high = -low;
+  std::vector<std::uint8_t> has_face(mesh.points.size(), 0);
   for (const auto& f : mesh.faces)
-    for (std::int32_t v : f) {
-      const Vector p = frame(mesh.points[std::size_t(v)]);
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
+    for (std::int32_t v : f) has_face[std::size_t(v)] = 1;
+  Vector low = Vector::Constant((std::numeric_limits<double>::max)()), high = -low;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    if (!has_face[i]) continue;
+    const Vector p = frame(mesh.points[i]);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   return mesh.faces.empty() ? Vector(Vector::Zero()) : Vector(high - low);
 }
 
