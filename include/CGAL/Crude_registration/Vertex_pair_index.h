@@ -154,16 +154,14 @@ public:
     if (!points.empty() && maximum_length > 0) {
       const internal::Point_grid grid(points, maximum_length / 2);
       const double least = minimum_length * minimum_length;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!normals.empty() && normals[i].isZero(0)) continue;
-        grid.for_each_within(points[i], maximum_length, [&](std::int32_t index, double squared_length) {
-          const auto j = std::size_t(index);
-          if (j <= i || squared_length < least || !(squared_length > 0)) return;
-          if (normals.empty()) pairs.push_back({{float(std::sqrt(squared_length)), 0, 0, 0}, std::int32_t(i), index});
-          else if (!normals[j].isZero(0))
-            pairs.push_back({describe(points[i], normals[i], points[j], normals[j]), std::int32_t(i), index});
-        });
-      }
+      grid.for_each_pair_within(maximum_length, [&](std::int32_t first, std::int32_t second, double squared_length) {
+        if (squared_length < least || !(squared_length > 0)) return true;
+        const auto i = std::size_t(first), j = std::size_t(second);
+        if (normals.empty()) pairs.push_back({{float(std::sqrt(squared_length)), 0, 0, 0}, first, second});
+        else if (!normals[i].isZero(0) && !normals[j].isZero(0))
+          pairs.push_back({describe(points[i], normals[i], points[j], normals[j]), first, second});
+        return true;
+      });
     }
     // No more cells than there are pairs, so that memory stays linear.
     std::size_t cells = 0;

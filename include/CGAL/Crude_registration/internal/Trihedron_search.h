@@ -64,6 +64,7 @@ struct Trihedron_pass
   double angle;         // in degrees
   double curvature;     // in 1 / description radius
   std::size_t distinct; // motions that are estimated again
+  double spacing;       // the largest, in shares of M: vertices further apart differ by more than this pass allows for
 };
 
 struct Trihedron_search_parameters
@@ -73,11 +74,11 @@ struct Trihedron_search_parameters
   bool use_normals = true;
   // Passes follow each other until the best motion's fine score is at least `certain_score`. Every pass looks up all
   // its trihedra in the whole D-mesh and scores every candidate.
-  std::vector<Trihedron_pass> passes = {{{2. / 3}, 1, 0.7, 9, 0.12, 16},
-                                        {{2. / 3}, 1, 0.7, 12, 0.15, 16},
-                                        {{1, 2. / 3}, 1, 0.7, 15, 0.2, 16},
-                                        {{1, 2. / 3}, 4, 0.7, 20, 0.2, 32},
-                                        {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4, 48}};
+  std::vector<Trihedron_pass> passes = {{{2. / 3}, 1, 0.7, 9, 0.12, 16, 0.025},
+                                        {{2. / 3}, 1, 0.7, 12, 0.15, 16, 0.065},
+                                        {{1, 2. / 3}, 1, 0.7, 15, 0.2, 10, 1},
+                                        {{1, 2. / 3}, 4, 0.7, 20, 0.2, 32, 1},
+                                        {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4, 48, 1}};
   double certain_score = 0.1;
   // All candidates are scored by a few of the vertices, the best of them by more, the best of these by all; the best
   // distinct ones are estimated again from all vertices, scored again by all, and refined from the best one on until
@@ -119,6 +120,7 @@ public:
     const auto start = std::chrono::steady_clock::now();
     Trihedron_search_result result;
     for (const Trihedron_pass& pass : m_parameters.passes) {
+      if (spacing() > pass.spacing * m_s.extent) continue;
       ++result.passes;
       run(pass, result);
       if (result.is_found && result.score >= m_parameters.certain_score) break;
@@ -275,7 +277,7 @@ private:
         candidates[i].score = m_evaluation.coarse_score(candidates[i].candidate.motion, probes).value();
       });
     };
-    look(m_parameters.kept, m_parameters.more_probes);
+    if (candidates.size() > m_parameters.kept_by_more) look(m_parameters.kept, m_parameters.more_probes);
     look(m_parameters.kept_by_more, all);
     keep_best(candidates, candidates.size());
 
