@@ -279,7 +279,7 @@ int run_register(const std::vector<std::string>& arguments)
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do "
       "not tell it");
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
-  add("time-budget", po::value<double>(), "seconds after which the search ends, with the best so far");
+  add("time-budget", po::value<double>(), "seconds after which preparation and search end, with the best so far");
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
   add("times", "add the times to the JSON");
@@ -304,6 +304,9 @@ int run_register(const std::vector<std::string>& arguments)
   const double f1 = map.count("f1") > 0 ? map["f1"].as<double>() : 0;
   const double f2 = map.count("f2") > 0 ? map["f2"].as<double>() : 1;
   if (!(f1 >= 0 && f1 < f2 && std::isfinite(f2))) throw Usage_error("--f1 has to be zero or above, and less than --f2");
+  const double time_budget =
+      map.count("time-budget") > 0 ? map["time-budget"].as<double>() : (std::numeric_limits<double>::max)();
+  if (!(time_budget > 0 && std::isfinite(time_budget))) throw Usage_error("--time-budget takes seconds, above zero");
   const bool has_poses = map.count("poses") > 0;
   const std::string poses_file = has_poses ? map["poses"].as<std::string>() : std::string();
   const auto poses = has_poses ? read_poses(poses_file) : std::map<std::string, Rigid_motion>();
@@ -314,6 +317,7 @@ int run_register(const std::vector<std::string>& arguments)
     Scan_file contents;
     std::unique_ptr<const Scan> scan;
     double seconds = 0;
+    std::string interruption;   // the time budget's end, before there was a scan
     std::exception_ptr failure; // of both sides', the first is reported
   };
   std::array<Side, 2> sides;
@@ -323,9 +327,12 @@ int run_register(const std::vector<std::string>& arguments)
     try {
       side.contents = CR::read_scan<Kernel>(side.file);
       const auto start = std::chrono::steady_clock::now();
-      side.scan = with_viewpoint(
-          viewpoint, [&](const auto& np) { return std::make_unique<const Scan>(side.contents, np, side.file); });
+      const auto within = CR::parameters::time_budget(time_budget);
+      side.scan = viewpoint ? std::make_unique<const Scan>(side.contents, within.viewpoint(*viewpoint), side.file)
+                            : std::make_unique<const Scan>(side.contents, within, side.file);
       side.seconds = seconds_since(start);
+    } catch (const CR::Preparation_interrupted& interrupted) {
+      side.interruption = interrupted.what();
     } catch (...) {
       side.failure = std::current_exception();
     }
@@ -335,11 +342,17 @@ int run_register(const std::vector<std::string>& arguments)
     if (side.failure) std::rethrow_exception(side.failure);
   const auto& [source, target] = sides;
 
-  const double time_budget =
-      map.count("time-budget") > 0 ? map["time-budget"].as<double>() : (std::numeric_limits<double>::max)();
   const auto start = std::chrono::steady_clock::now();
-  const Result result = CR::register_scans<CGAL::Parallel_if_available_tag>(
-      *source.scan, *target.scan, CR::parameters::minimum_extent(f1).maximum_extent(f2).time_budget(time_budget));
+  const auto answer = [&] {
+    Result::Parts parts;
+    parts.reason = source.scan ? target.interruption : source.interruption;
+    if (!source.scan || !target.scan) return Result(std::move(parts));
+    constexpr double shortest = 1e-9;
+    const double left = (std::max)(shortest, time_budget - (std::max)(source.seconds, target.seconds));
+    return CR::register_scans<CGAL::Parallel_if_available_tag>(
+        *source.scan, *target.scan, CR::parameters::minimum_extent(f1).maximum_extent(f2).time_budget(left));
+  };
+  const Result result = answer();
   const double search_seconds = seconds_since(start);
   const bool has_motion = result.status() != CR::NOT_REGISTERED;
 

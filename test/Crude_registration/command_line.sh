@@ -109,6 +109,14 @@ says "status:     not_registered"
 says "reason:"
 [ -e nothing ] && fail "something is written although the scans are not registered"
 
+# No time, not even to prepare the scans.
+expect 3 register $pair --time-budget 1e-9 --output nothing
+says "status:     not_registered"
+says "reason:     interrupted: the preparation of scans/scan_"
+[ -e nothing ] && fail "something is written although the scans are not registered"
+expect 0 register $pair --time-budget 1000
+rejects "--time-budget" register $pair --time-budget 0
+
 # Two pieces of a plane: ambiguous.
 awk 'BEGIN { for (i = 0; i < 40; ++i) for (j = 0; j < 30; ++j) print i, j, 0 }' > plane_0.xyz
 awk 'BEGIN { for (i = 0; i < 30; ++i) for (j = 0; j < 40; ++j) print i, j, 0 }' > plane_1.xyz

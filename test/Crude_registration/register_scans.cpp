@@ -462,14 +462,15 @@ BOOST_AUTO_TEST_CASE(named_parameters_in_any_order)
   check_right(CR::register_meshes(a, b, CGAL::parameters::vertex_point_map(map)), source, target);
 }
 
-// Ends the search once so much of it is done.
+// Ends a run once so much of it is done, or after so many looks at it.
 struct Impatient
 {
   double enough, last = 0;
+  int most;
   int asked = 0, refused = 0;
   bool is_monotone = true, is_share = true;
 
-  explicit Impatient(double share) : enough(share) {}
+  explicit Impatient(double share, int looks = (std::numeric_limits<int>::max)()) : enough(share), most(looks) {}
   void progress(double share)
   {
     is_monotone = is_monotone && share >= last;
@@ -478,9 +479,10 @@ struct Impatient
   }
   bool go_further()
   {
+    const bool goes_on = last < enough && asked < most;
     ++asked;
-    refused += last >= enough;
-    return last < enough;
+    refused += !goes_on;
+    return goes_on;
   }
 };
 
@@ -529,6 +531,44 @@ BOOST_AUTO_TEST_CASE(a_search_can_be_ended)
   };
   BOOST_CHECK_EXCEPTION(CR::register_scans(source, target, p::visitor(Failing())), std::runtime_error,
                         [](const std::runtime_error& e) { return e.what() == std::string("enough"); });
+}
+
+// Preparation, too: of a mesh, an image, and points that have to be joined first.
+BOOST_AUTO_TEST_CASE(a_preparation_can_be_ended)
+{
+  const View& v = view(0, 0);
+  const Mesh mesh = mesh_of(v.image);
+  const auto interrupted = [](const CR::Preparation_interrupted& e) {
+    return std::string(e.what()).find("interrupted: the preparation of the scan") == 0;
+  };
+  Impatient patient(1);
+  check_same_bits(CR::register_scans(v.scan, view(0, 45).scan),
+                  CR::register_scans(Scan(v.image, p::visitor(std::ref(patient)).time_budget(1000)), view(0, 45).scan));
+  BOOST_TEST(patient.asked > 1);
+  const auto ends = [&](const auto& input, int later) {
+    // At once, and after some looks at the visitor, which are a millisecond apart.
+    for (int looks : {0, later}) {
+      Impatient impatient(1, looks);
+      BOOST_CHECK_EXCEPTION(Scan(input, p::visitor(std::ref(impatient)), "the scan"), CR::Preparation_interrupted,
+                            interrupted);
+      BOOST_TEST(impatient.refused == 1);
+    }
+    BOOST_CHECK_EXCEPTION(Scan(input, p::time_budget(1e-9), "the scan"), CR::Preparation_interrupted, interrupted);
+  };
+  ends(mesh, 1);
+  ends(v.image, 1);
+  ends(v.image.points(), 30); // in the midst of the front
+
+  for (int looks : {0, 2}) {
+    Impatient impatient(1, looks);
+    const Result result = CR::register_meshes(mesh, mesh, p::visitor(std::ref(impatient)));
+    check_proper(result);
+    BOOST_TEST(result.status() == CR::NOT_REGISTERED);
+    BOOST_TEST(result.reason() == "interrupted: the preparation of the scans");
+    BOOST_TEST(impatient.refused == 1);
+  }
+  const Result late = CR::register_meshes(mesh, mesh, p::time_budget(1e-9));
+  BOOST_TEST(late.reason() == "interrupted: the preparation of the scans");
 }
 
 BOOST_AUTO_TEST_CASE(extents_of_the_axes)

@@ -13,6 +13,7 @@
 #include <CGAL/Crude_registration/estimate_sensor.h>
 #include <CGAL/Crude_registration/internal/Flat_triangulation.h>
 #include <CGAL/Crude_registration/internal/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 #include <CGAL/Crude_registration/triangulate_points.h>
@@ -33,6 +34,19 @@ struct Scan_file; // IO/read_scan.h
 /*!
 \ingroup PkgCrudeRegistrationRef
 
+\brief Thrown where a time budget or a visitor ends the preparation of a scan, of which no part is of use.
+*/
+struct Preparation_interrupted : std::runtime_error
+{
+  /// `name`: of the scan
+  explicit Preparation_interrupted(const std::string& name)
+      : std::runtime_error("interrupted: the preparation of " + name)
+  {}
+};
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
 \brief A scan prepared for registration: what is computed once and used by every pair the scan takes part in.
 
 The scan's surface at two resolutions, with normals and curvatures, and, where the sensor is known, the free space in
@@ -40,6 +54,10 @@ front of it. Nothing of the input is referred to. All lengths that the class ret
 motions are between frames of inputs.
 
 \tparam Kernel_ a model of `Kernel`
+
+All constructors take the named parameters `time_budget`, seconds after which the preparation ends, and `visitor`, which
+may end it (see `register_scans()`), by `Preparation_interrupted`: within a tenth of a second for each two million
+samples.
 
 Complexity: linear in the size of the input; the size of the result is bounded (some megabytes).
 */
@@ -66,7 +84,7 @@ public:
   explicit Scan(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values(),
                 const std::string& name = "Scan: mesh")
   {
-    prepare(internal::to_flat_mesh(mesh, np, name, "it"), given_sensor(np, name), name);
+    within_limits(np, name, [&](internal::Run_control& control) { prepare_mesh(mesh, np, name, control); });
   }
 
   /*!
@@ -80,7 +98,7 @@ public:
   explicit Scan(const Range_image<Kernel>& image, const NamedParameters& np = parameters::default_values(),
                 const std::string& name = "Scan: image")
   {
-    prepare_image(image, np, name);
+    within_limits(np, name, [&](internal::Run_control& control) { prepare_image(image, np, name, control); });
   }
 
   /*!
@@ -95,7 +113,7 @@ public:
   explicit Scan(const std::vector<Point_3>& points, const NamedParameters& np = parameters::default_values(),
                 const std::string& name = "Scan: points")
   {
-    prepare_points(points, np, name);
+    within_limits(np, name, [&](internal::Run_control& control) { prepare_points(points, np, name, control); });
   }
 
   /*!
@@ -105,17 +123,19 @@ public:
   explicit Scan(const Scan_file<Kernel>& file, const NamedParameters& np = parameters::default_values(),
                 const std::string& name = "Scan: file")
   {
-    switch (file.kind) {
-    case Scan_file<Kernel>::RANGE_IMAGE:
-      prepare_image(file.image, np, name);
-      break;
-    case Scan_file<Kernel>::MESH:
-      prepare(internal::to_flat_mesh(file.mesh, parameters::default_values(), name, "it"), given_sensor(np, name),
-              name);
-      break;
-    case Scan_file<Kernel>::POINTS:
-      prepare_points(file.points, np, name);
-    }
+    within_limits(np, name, [&](internal::Run_control& control) {
+      switch (file.kind) {
+      case Scan_file<Kernel>::RANGE_IMAGE:
+        prepare_image(file.image, np, name, control);
+        break;
+      case Scan_file<Kernel>::MESH:
+        prepare(internal::to_flat_mesh(file.mesh, parameters::default_values(), name, "it"), given_sensor(np, name),
+                name, control);
+        break;
+      case Scan_file<Kernel>::POINTS:
+        prepare_points(file.points, np, name, control);
+      }
+    });
   }
 
   /// the number of samples that take part.
@@ -132,20 +152,50 @@ public:
 
   /// \cond SKIP_IN_MANUAL
   const internal::Prepared_scan& prepared() const { return m_prepared; }
+
+  // As a part of a longer run. \throws internal::Run_control::Stopped
+  template <class FaceGraph, class NamedParameters>
+  Scan(const FaceGraph& mesh, const NamedParameters& np, const std::string& name, internal::Run_control& control)
+  {
+    prepare_mesh(mesh, np, name, control);
+  }
   /// \endcond
 
 private:
+  template <class NamedParameters, class Function>
+  static void within_limits(const NamedParameters& np, const std::string& name, const Function& f)
+  {
+    internal::Run_control control(internal::visitor_parameter(np), internal::time_budget_parameter(np, name.c_str()));
+    try {
+      f(control);
+    } catch (const internal::Run_control::Stopped&) {
+      throw Preparation_interrupted(name);
+    }
+  }
+
+  template <class FaceGraph, class NamedParameters>
+  void prepare_mesh(const FaceGraph& mesh, const NamedParameters& np, const std::string& name,
+                    internal::Run_control& control)
+  {
+    prepare(internal::to_flat_mesh(mesh, np, name, "it"), given_sensor(np, name), name, control);
+  }
+
   template <class NamedParameters>
-  void prepare_image(const Range_image<Kernel>& image, const NamedParameters& np, const std::string& name)
+  void prepare_image(const Range_image<Kernel>& image, const NamedParameters& np, const std::string& name,
+                     internal::Run_control& control)
   {
     internal::Flat_range_image flat(image);
     if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = given_sensor(np, name);
     if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::Sensor_estimation(flat)();
-    prepare(internal::flat_triangulation(flat, internal::sampling(flat)), flat.sensor, name);
+    control.check();
+    const internal::Sampling sampling = internal::sampling(flat);
+    control.check();
+    prepare(internal::flat_triangulation(flat, sampling), flat.sensor, name, control);
   }
 
   template <class NamedParameters>
-  void prepare_points(const std::vector<Point_3>& points, const NamedParameters& np, const std::string& name)
+  void prepare_points(const std::vector<Point_3>& points, const NamedParameters& np, const std::string& name,
+                      internal::Run_control& control)
   {
     std::vector<internal::Vector> flat;
     flat.reserve(points.size());
@@ -157,18 +207,21 @@ private:
     }
     constexpr double maximum_edge_ratio = 5; // as for range images
     const internal::Flat_sensor sensor = given_sensor(np, name);
-    prepare(internal::flat_triangulation(flat, sensor, maximum_edge_ratio), sensor, name);
+    control.check();
+    prepare(internal::flat_triangulation(flat, sensor, maximum_edge_ratio, control), sensor, name, control);
   }
 
-  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor, const std::string& name)
+  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor, const std::string& name,
+               internal::Run_control& control)
   {
+    control.check();
     // Squares of lengths are computed in float.
     constexpr double smallest = 1e-12, largest = 1e12;
     double size = 0;
     for (const internal::Vector& p : mesh.points) size = (std::max)(size, (p - mesh.points.front()).norm());
     if (size > 0 && !(size > smallest && size < largest))
       throw std::invalid_argument(name + ": its size is not between 1e-12 and 1e12: another unit of length is needed");
-    m_prepared = internal::prepare_scan(mesh, sensor);
+    m_prepared = internal::prepare_scan(mesh, sensor, {}, control);
     if (m_prepared.number_of_samples == 0)
       throw std::invalid_argument(name + " has no surface: there is no face of positive area that the sensor can see");
   }

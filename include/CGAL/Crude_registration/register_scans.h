@@ -33,6 +33,16 @@ inline Search_parameters parameters_within(double f1, double f2)
   return parameters;
 }
 
+// What the parameters `minimum_extent` and `maximum_extent` ask for.
+template <class NamedParameters>
+Search_parameters search_parameters(const NamedParameters& np, const std::string& function)
+{
+  const double f1 = non_negative_parameter(np, internal_np::minimum_extent, 0, function.c_str(), "minimum_extent");
+  const double f2 = non_negative_parameter(np, internal_np::maximum_extent, 1, function.c_str(), "maximum_extent");
+  if (!(f1 < f2)) throw std::invalid_argument(function + ": minimum_extent has to be less than maximum_extent");
+  return parameters_within(f1, f2);
+}
+
 template <class Kernel>
 Registration_result<Kernel> to_result(const Registration_outcome& outcome)
 {
@@ -102,14 +112,10 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, class Kernel,
 Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
                                            const NamedParameters& np = parameters::default_values())
 {
-  const double f1 =
-      internal::non_negative_parameter(np, internal_np::minimum_extent, 0, "register_scans", "minimum_extent");
-  const double f2 =
-      internal::non_negative_parameter(np, internal_np::maximum_extent, 1, "register_scans", "maximum_extent");
-  if (!(f1 < f2)) throw std::invalid_argument("register_scans: minimum_extent has to be less than maximum_extent");
+  const internal::Search_parameters parameters = internal::search_parameters(np, "register_scans");
   internal::Run_control control(internal::visitor_parameter(np), internal::time_budget_parameter(np, "register_scans"));
-  return internal::to_result<Kernel>(internal::register_prepared_scans<ConcurrencyTag>(
-      source.prepared(), target.prepared(), internal::parameters_within(f1, f2), control));
+  return internal::to_result<Kernel>(
+      internal::register_prepared_scans<ConcurrencyTag>(source.prepared(), target.prepared(), parameters, control));
 }
 
 /*!
@@ -124,7 +130,8 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
        `geom_traits` sets the kernel of the result) and for the registration (see `register_scans()`)
 \param np_target named parameters for the target
 
-A time budget or a visitor ends the search, not the preparation of the scans.
+A time budget and a visitor are those of the whole run: where they end the preparation of the scans the answer is
+`NOT_REGISTERED`, and the reason says so.
 
 \throws std::invalid_argument as `Scan` and `register_scans()` do; the text names the argument.
 */
@@ -140,9 +147,19 @@ auto register_meshes(const Source& source, const Target& target,
   using Default_kernel = typename Kernel_traits<Point>::Kernel;
   using Kernel = std::remove_cv_t<
       std::remove_reference_t<decltype(internal::parameter(np_source, internal_np::geom_traits, Default_kernel()))>>;
-  const Scan<Kernel> prepared_source(source, np_source, "register_meshes: source");
-  const Scan<Kernel> prepared_target(target, np_target, "register_meshes: target");
-  return register_scans<ConcurrencyTag>(prepared_source, prepared_target, np_source);
+  const internal::Search_parameters parameters = internal::search_parameters(np_source, "register_meshes");
+  internal::Run_control control(internal::visitor_parameter(np_source),
+                                internal::time_budget_parameter(np_source, "register_meshes"));
+  try {
+    const Scan<Kernel> prepared_source(source, np_source, "register_meshes: source", control);
+    const Scan<Kernel> prepared_target(target, np_target, "register_meshes: target", control);
+    return internal::to_result<Kernel>(internal::register_prepared_scans<ConcurrencyTag>(
+        prepared_source.prepared(), prepared_target.prepared(), parameters, control));
+  } catch (const internal::Run_control::Stopped&) {
+    typename Registration_result<Kernel>::Parts parts;
+    parts.reason = Preparation_interrupted("the scans").what();
+    return Registration_result<Kernel>(std::move(parts));
+  }
 }
 
 } // namespace Crude_registration

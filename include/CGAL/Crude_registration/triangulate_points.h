@@ -11,6 +11,7 @@
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
 #include <CGAL/Crude_registration/internal/Projected_triangulation.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/Surface_from_points.h>
 #include <CGAL/Crude_registration/internal/add_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
@@ -32,10 +33,11 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
+// \throws Run_control::Stopped
 inline Flat_mesh flat_triangulation(const std::vector<Vector>& points, const Flat_sensor& sensor,
-                                    double maximum_edge_ratio = 5)
+                                    double maximum_edge_ratio, Run_control& control)
 {
-  if (sensor.kind == Flat_sensor::UNKNOWN) return Surface_from_points(points, maximum_edge_ratio)();
+  if (sensor.kind == Flat_sensor::UNKNOWN) return Surface_from_points(points, maximum_edge_ratio, control)();
   return Projected_triangulation(points, sensor, maximum_edge_ratio)();
 }
 
@@ -140,7 +142,8 @@ void triangulate_points(const PointRange& points, FaceGraph& mesh,
   }
   if (flat.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw std::invalid_argument("triangulate_points: points has more than 2^31 - 1 elements");
-  internal::add_flat_mesh(internal::flat_triangulation(flat, sensor, ratio), mesh, np);
+  internal::Run_control to_the_end;
+  internal::add_flat_mesh(internal::flat_triangulation(flat, sensor, ratio, to_the_end), mesh, np);
 }
 
 } // namespace Crude_registration

@@ -95,10 +95,12 @@ public:
   {
     const Vector_f q = project(p);
     const float x = (q[0] - m_low_x) * m_scale, y = (q[1] - m_low_y) * m_scale;
-    const bool is_inside = (x >= 0) & (y >= 0) & (x < float(m_columns)) & (y < float(m_rows)); // not where it is NaN
-    const int i = int(is_inside ? x : 0), j = int(is_inside ? y : 0); // a cell at the border, which knows nothing
+    const int is_inside =
+        int(x >= 0) & int(y >= 0) & int(x < float(m_columns)) & int(y < float(m_rows)); // not where it is NaN
+    const int i = int(is_inside != 0 ? x : 0),
+              j = int(is_inside != 0 ? y : 0); // a cell at the border, which knows nothing
     const float depth = m_depths[std::size_t(i) * std::size_t(m_rows) + std::size_t(j)];
-    return is_inside ? depth - q[2] : -(std::numeric_limits<float>::max)();
+    return is_inside != 0 ? depth - q[2] : -(std::numeric_limits<float>::max)();
   }
 
 private:

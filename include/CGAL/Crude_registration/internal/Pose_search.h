@@ -119,8 +119,8 @@ Agreement agreement(const Prepared_scan& source, const Surfel_level& source_leve
     const int j = target_level.field.nearest(p);
     if (j >= 0) {
       const Surfel& t = target_level.surfels[std::size_t(j)];
-      overlap += (std::abs(t.normal.dot(p - t.position)) <= distance) &
-                 ((pose.rotation * s.normal).dot(t.normal) >= minimal_cosine);
+      overlap += int(std::abs(t.normal.dot(p - t.position)) <= distance) &
+                 int((pose.rotation * s.normal).dot(t.normal) >= minimal_cosine);
     }
     if (target_is_known) violations += target.depths.in_front(p) > free_depth;
   }

@@ -13,6 +13,7 @@
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
 #include <CGAL/Crude_registration/internal/Point_grid.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/scan_frame.h>
 #include <CGAL/Crude_registration/internal/Surfel_field.h>
@@ -66,7 +67,7 @@ struct Prepared_scan
 // positions and normals. Samples of one cell that face away from their mean normal are another sheet and make a
 // surfel of their own. In the order of the cells; that of the samples does not matter but for rounding.
 inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std::vector<Vector_f>& normals,
-                                  const std::vector<float>& weights, float cell)
+                                  const std::vector<float>& weights, float cell, Run_control& control)
 {
   struct Item
   {
@@ -82,8 +83,13 @@ inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std
   for (std::size_t i = 0; i < points.size(); ++i)
     items[i] = {(coordinate(points[i][0]) << 42) | (coordinate(points[i][1]) << 21) | coordinate(points[i][2]),
                 std::uint32_t(i)};
+  std::size_t steps = 0;
   boost::sort::spreadsort::integer_sort(
-      items.begin(), items.end(), [](const Item& a, unsigned shift) { return a.key >> shift; },
+      items.begin(), items.end(),
+      [&](const Item& a, unsigned shift) {
+        control.check(++steps);
+        return a.key >> shift;
+      },
       [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
 
   Surfel_level level;
@@ -107,6 +113,7 @@ inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std
     return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
   };
   for (std::size_t from = 0; from < items.size();) {
+    control.check(++steps);
     Sum front, back;
     std::size_t to = from, least = from;
     Vector all = Vector::Zero();
@@ -273,7 +280,8 @@ inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face,
 // surface (a CAD model), points spread evenly over the faces, about `distance` from each other. Samples that are seen
 // at a grazing angle lie on the faces that bridge a depth edge: they are left out.
 inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vector<double>& areas,
-                                         const Rigid_motion& own, const Flat_sensor& sensor, double distance)
+                                         const Rigid_motion& own, const Flat_sensor& sensor, double distance,
+                                         Run_control& control)
 {
   Oriented_samples samples;
   const Matrix_f rotation = own.rotation.cast<float>();
@@ -282,11 +290,15 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vecto
   for (const double a : areas)
     if (a > area / 1000) area_of_large_faces += a;
   if (sensor.kind == Flat_sensor::UNKNOWN && area_of_large_faces > 0.2 * area) {
-    for (const auto& f : mesh.faces) sample_face(mesh, f, own, distance, samples);
+    for (const auto& f : mesh.faces) {
+      control.check();
+      sample_face(mesh, f, own, distance, samples);
+    }
     return samples;
   }
   constexpr double grazing = 0.12;
   const std::vector<Vector> normals = vertex_normals(mesh);
+  control.check();
   samples.points.reserve(mesh.points.size());
   samples.normals.reserve(mesh.points.size());
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -331,8 +343,9 @@ inline double hidden_share(const Depth_buffer& depths, const std::vector<Vector_
 
 // Prepares a scan for search. The sensor is in the frame of the mesh.
 // A scan of fewer than four surfels cannot be registered; what it holds is prepared all the same.
+// \throws Run_control::Stopped
 inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
-                                  const Preparation_parameters& parameters = {})
+                                  const Preparation_parameters& parameters, Run_control& control)
 {
   Prepared_scan scan;
   Vector direction = Vector::Zero();
@@ -342,7 +355,9 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
     direction = unit_or_zero(direction);
   }
   const std::vector<double> areas = face_areas(mesh);
+  control.check();
   scan.own_from_input = scan_frame(mesh, areas, direction);
+  control.check();
   const Rigid_motion& own = scan.own_from_input;
   const Vector size = extent_in_frame(mesh, own);
   scan.extent = size.sum() / 3;
@@ -350,15 +365,15 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
   if (!(area > 0)) return scan;
 
   // What is not a surface but dust takes larger cells, until the surfels can be numbered.
-  const auto grouped = [](const std::vector<Vector_f>& p, const std::vector<Vector_f>& n, const std::vector<float>& w,
-                          float cell) {
-    Surfel_level level = group_samples(p, n, w, cell);
-    while (level.surfels.size() > Surfel_field::maximum_size) level = group_samples(p, n, w, cell *= 1.5f);
+  const auto grouped = [&](const std::vector<Vector_f>& p, const std::vector<Vector_f>& n, const std::vector<float>& w,
+                           float cell) {
+    Surfel_level level = group_samples(p, n, w, cell, control);
+    while (level.surfels.size() > Surfel_field::maximum_size) level = group_samples(p, n, w, cell *= 1.5f, control);
     return level;
   };
   // A surface cuts about 1.5 cells of a cubic grid for each area of the square of their edge length.
   const double finest = std::sqrt(1.5 * area / parameters.fine_surfels);
-  const Oriented_samples samples = samples_of_faces(mesh, areas, own, sensor, 0.5 * finest);
+  const Oriented_samples samples = samples_of_faces(mesh, areas, own, sensor, 0.5 * finest, control);
   scan.number_of_samples = samples.points.size();
   if (samples.points.empty()) return scan;
   scan.spacing = std::sqrt(area / double(samples.points.size()));
@@ -374,6 +389,7 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
     normals.push_back(s.normal);
   }
   scan.coarse = grouped(points, normals, scan.fine.weights, float(coarse));
+  control.check();
   describe_surfels(scan.coarse);
   scan.fine.field = Surfel_field(scan.fine.surfels, scan.fine.spacing, 1.6f * scan.fine.spacing);
   scan.coarse.field = Surfel_field(scan.coarse.surfels, 0.7f * scan.coarse.spacing, 2.f * scan.coarse.spacing);
@@ -381,6 +397,7 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
   scan.coarse.probes = choose_probes(scan.coarse.surfels, 600);
   measure_noise(scan.fine);
   measure_noise(scan.coarse);
+  control.check();
 
   const float cell = float(2.2 * scan.spacing);
   const Matrix_f rotation = own.rotation.cast<float>();
@@ -395,6 +412,13 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
     }
   }
   return scan;
+}
+
+inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
+                                  const Preparation_parameters& parameters = {})
+{
+  Run_control to_the_end;
+  return prepare_scan(mesh, sensor, parameters, to_the_end);
 }
 
 } // namespace internal

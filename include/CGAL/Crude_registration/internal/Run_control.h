@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -25,6 +26,12 @@ namespace internal {
 // says so; that is called by the thread alone that made the control, and no more than once a millisecond.
 class Run_control
 {
+public:
+  // Thrown by check().
+  struct Stopped
+  {};
+
+private:
   using Clock = std::chrono::steady_clock;
 
 public:
@@ -53,6 +60,19 @@ public:
   }
 
   bool is_stopped() const { return m_is_stopped; }
+
+  // For what is of no use in parts: throws where go_on() says no.
+  void check()
+  {
+    if (!go_on()) throw Stopped();
+  }
+
+  // The same within a loop, for its step `i`: now and then.
+  void check(std::size_t i)
+  {
+    constexpr std::size_t every = 4096;
+    if (i % every == 0) check();
+  }
 
   // By the thread that made the control.
   void advance(double progress) { m_progress = progress; }

@@ -9,6 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SURFACE_FROM_POINTS_H
 
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/advancing_front.h>
 #include <CGAL/Crude_registration/internal/flat_mesh_repair.h>
 #include <CGAL/Crude_registration/internal/likely_viewpoint.h>
@@ -40,8 +41,11 @@ class Surface_from_points
 
 public:
   // no edge is longer than `ratio` times the spacing of the thinned points
-  Surface_from_points(const std::vector<Vector>& points, double ratio) : m_points(points), m_ratio(ratio) {}
+  Surface_from_points(const std::vector<Vector>& points, double ratio, Run_control& control)
+      : m_points(points), m_ratio(ratio), m_control(control)
+  {}
 
+  // \throws Run_control::Stopped
   Flat_mesh operator()()
   {
     Flat_mesh mesh;
@@ -49,12 +53,13 @@ public:
     to_principal_frame();
     if (m_is_line) return mesh;
     const std::vector<Vector> points = thin();
+    m_control.check();
     advance_front(points, mesh);
     keep_used_points(mesh, points);
     split_non_manifold_vertices(mesh);
     orient_outwards(mesh);
     Vector viewpoint;
-    if (Likely_viewpoint(mesh, m_spacing, m_axes).find(viewpoint)) {
+    if (Likely_viewpoint(mesh, m_spacing, m_axes, m_control).find(viewpoint)) {
       turn_to(viewpoint, mesh);
       split_non_manifold_vertices(mesh);
     }
@@ -113,6 +118,7 @@ private:
     const double smallest = m_extent / double(1 << 20); // 21 bits an axis
     double size = std::max(smallest, m_extent / std::sqrt(wanted));
     for (int i = 0; i < 8; ++i) {
+      m_control.check();
       std::vector<std::uint64_t> keys = cells(size);
       std::sort(keys.begin(), keys.end());
       const double got = static_cast<double>(std::unique(keys.begin(), keys.end()) - keys.begin());
@@ -151,10 +157,12 @@ private:
   struct Priority
   {
     double squared_radius_limit;
+    Run_control* control; // asked from within the front: about once a facet
 
     template <class Front, class Cell_handle>
     double operator()(const Front& front, Cell_handle& cell, const int& index) const
     {
+      control->check();
       const double squared_radius = front.smallest_radius_delaunay_sphere(cell, index);
       return squared_radius <= squared_radius_limit ? squared_radius : front.infinity();
     }
@@ -169,7 +177,7 @@ private:
       const Vector q = (p - m_centroid) / m_spacing;
       input.emplace_back(q.x(), q.y(), q.z());
     }
-    for (const auto& f : advancing_front(input, Priority{m_ratio * m_ratio / 4}))
+    for (const auto& f : advancing_front(input, Priority{m_ratio * m_ratio / 4, &m_control}))
       mesh.faces.push_back(
           {static_cast<std::int32_t>(f[0]), static_cast<std::int32_t>(f[1]), static_cast<std::int32_t>(f[2])});
   }
@@ -202,6 +210,7 @@ private:
 
   const std::vector<Vector>& m_points;
   const double m_ratio;
+  Run_control& m_control;
   Vector m_centroid = Vector::Zero();
   Matrix m_axes = Matrix::Identity(); // of the principal frame
   std::vector<Vector> m_local;        // the points in it

@@ -124,12 +124,12 @@ public:
   int nearest(const Vector_f& p) const
   {
     const float x = (p[0] - m_low[0]) * m_scale, y = (p[1] - m_low[1]) * m_scale, z = (p[2] - m_low[2]) * m_scale;
-    const bool is_inside =
-        (x >= 0) & (y >= 0) & (z >= 0) & (x < m_size[0]) & (y < m_size[1]) & (z < m_size[2]); // not where it is NaN
-    const int i = int(is_inside ? x : 0), j = int(is_inside ? y : 0), k = int(is_inside ? z : 0);
+    const int is_inside = int(x >= 0) & int(y >= 0) & int(z >= 0) & int(x < m_size[0]) & int(y < m_size[1]) &
+                          int(z < m_size[2]); // not where it is NaN
+    const int i = int(is_inside != 0 ? x : 0), j = int(is_inside != 0 ? y : 0), k = int(is_inside != 0 ? z : 0);
     const auto block = std::size_t(m_block_of[block_index(i, j, k)]);
     const std::uint16_t s = m_voxels[block * 64 + voxel_index(i, j, k)];
-    return is_inside & (s != empty) ? int(s) : none;
+    return (is_inside & int(s != empty)) != 0 ? int(s) : none;
   }
 
 private:

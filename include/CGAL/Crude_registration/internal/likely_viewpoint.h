@@ -10,6 +10,7 @@
 
 #include <CGAL/Crude_registration/internal/Counter_random.h>
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/Triangle_tree.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 
@@ -37,8 +38,8 @@ class Likely_viewpoint
 public:
   // \pre The faces of each connected part of `mesh` look, in the mean, away from the centroid of the whole.
   // `spacing`: of the vertices. `axes`: unit, the frame in which places are tried; it moves with the mesh.
-  Likely_viewpoint(const Flat_mesh& mesh, double spacing, const Matrix& axes)
-      : m_mesh(mesh), m_spacing(spacing), m_axes(axes), m_vertices(shuffled(mesh.points.size(), 4)),
+  Likely_viewpoint(const Flat_mesh& mesh, double spacing, const Matrix& axes, Run_control& control)
+      : m_mesh(mesh), m_spacing(spacing), m_axes(axes), m_control(control), m_vertices(shuffled(mesh.points.size(), 4)),
         m_faces(shuffled(mesh.faces.size(), 5))
   {}
 
@@ -111,6 +112,7 @@ private:
   {
     n = (std::min)(n, m_vertices.size());
     for (Place& p : places) {
+      m_control.check();
       std::size_t visible = 0;
       for (std::size_t i = from; i < from + n; ++i)
         visible += is_visible(position(m_vertices[i % m_vertices.size()]), p.position);
@@ -160,6 +162,7 @@ private:
   const Flat_mesh& m_mesh;
   const double m_spacing;
   const Matrix m_axes;
+  Run_control& m_control;
   const std::vector<std::int32_t> m_vertices, m_faces; // in an order without pattern
   Vector m_low, m_high, m_centre;
   Triangle_tree<Kernel>::Triangles m_triangles;
