@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced by tools/sanitize.sh and tools/coverage.sh, in the root of the project: for tests that are run by a tool, in
+# Sourced by tools/sanitize.sh, coverage.sh and cgal_6.sh, in the root of the project: for tests that are run by a tool, in
 # the folder of their build.
 
 root=$PWD

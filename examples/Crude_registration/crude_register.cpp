@@ -50,6 +50,7 @@
 #include <locale>
 #include <map>
 #include <memory>
+#include <new>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -588,6 +589,8 @@ int main(int argc, char** argv)
     return code;
   } catch (const Usage_error& e) {
     std::cerr << "crude_register: " << e.what() << "; see crude_register --help\n";
+  } catch (const std::bad_alloc&) {
+    std::cerr << "crude_register: out of memory\n";
   } catch (const std::exception& e) {
     std::cerr << "crude_register: " << e.what() << '\n';
   }

@@ -117,6 +117,19 @@ says "reason:     interrupted: the preparation of scans/scan_"
 expect 0 register $pair --time-budget 1000
 rejects "--time-budget" register $pair --time-budget 0
 
+# Less memory than is needed: an error like any other.
+awk 'BEGIN { for (i = 0; i < 1000; ++i) for (j = 0; j < 600; ++j) print i, j, (i * j) % 7 }' > large.xyz
+cat > limited.sh <<EOF
+#!/bin/sh
+ulimit -v 100000 && exec "$program" "\$@"
+EOF
+chmod +x limited.sh
+unlimited=$program
+program=./limited.sh
+rejects "out of memory" register large.xyz large.xyz --output nothing --threads 1
+[ -e nothing ] && fail "something is written although memory ran out"
+program=$unlimited
+
 # Two pieces of a plane: ambiguous.
 awk 'BEGIN { for (i = 0; i < 40; ++i) for (j = 0; j < 30; ++j) print i, j, 0 }' > plane_0.xyz
 awk 'BEGIN { for (i = 0; i < 30; ++i) for (j = 0; j < 40; ++j) print i, j, 0 }' > plane_1.xyz
