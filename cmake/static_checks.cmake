@@ -20,12 +20,9 @@ target_link_libraries(headers_alone_flags PRIVATE CGAL::CGAL CGAL::Eigen3_suppor
   $<TARGET_NAME_IF_EXISTS:CGAL::TBB_support>)
 set(includes "$<FILTER:$<TARGET_PROPERTY:headers_alone_flags,INCLUDE_DIRECTORIES>,EXCLUDE,^/usr/include(/[^/]*-linux-[^/]*)?$>")
 set(definitions "$<TARGET_PROPERTY:headers_alone_flags,COMPILE_DEFINITIONS>")
-set(stamps "")
-foreach(header IN LISTS headers)
-  string(MAKE_C_IDENTIFIER ${header} name)
-  set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
+# check_source(STAMPS NAME SOURCE COMMENT): compiled, but for the code; adds a file that says so to the list STAMPS.
+function(check_source stamps name source comment)
   set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.stamp)
-  file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
   add_custom_command(OUTPUT ${stamp}
     COMMAND ${header_compiler} -std=c++17 -fsyntax-only -frounding-math -Wall -Wextra -Wpedantic -Wconversion -Wshadow
             -Werror -I${PROJECT_SOURCE_DIR}/include
@@ -33,10 +30,30 @@ foreach(header IN LISTS headers)
             "$<$<BOOL:${definitions}>:-D$<JOIN:${definitions},;-D>>"
             -MMD -MT ${stamp} -MF ${stamp}.d ${source}
     COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
-    DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${header} alone")
-  list(APPEND stamps ${stamp})
+    DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${comment}")
+  set(${stamps} ${${stamps}} ${stamp} PARENT_SCOPE)
+endfunction()
+set(header_stamps "")
+foreach(header IN LISTS headers)
+  string(MAKE_C_IDENTIFIER ${header} name)
+  set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
+  check_source(header_stamps ${name} ${source} "${header} alone")
 endforeach()
-add_custom_target(headers_alone DEPENDS ${stamps})
+add_custom_target(headers_alone DEPENDS ${header_stamps})
+# The benchmarks, which few builds build.
+set(benchmark_stamps "")
+if(TARGET benchmarks)
+  get_target_property(names benchmarks MANUALLY_ADDED_DEPENDENCIES)
+  foreach(name IN LISTS names)
+    get_target_property(is_left_out ${name} EXCLUDE_FROM_ALL)
+    if(is_left_out)
+      check_source(benchmark_stamps benchmark_${name} ${PROJECT_SOURCE_DIR}/benchmark/Crude_registration/${name}.cpp
+        "benchmark ${name}")
+    endif()
+  endforeach()
+endif()
+add_custom_target(benchmarks_compile DEPENDS ${benchmark_stamps})
 if(CRUDE_REGISTRATION_WITH_TESTS)
   include(ProcessorCount)
   ProcessorCount(processors)
@@ -44,9 +61,11 @@ if(CRUDE_REGISTRATION_WITH_TESTS)
   if(CMAKE_GENERATOR MATCHES "Ninja")
     set(keep_going -- -k 0)
   endif()
-  add_test(NAME headers_alone
-    COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target headers_alone --parallel ${processors} ${keep_going})
-  set_tests_properties(headers_alone PROPERTIES RUN_SERIAL ON TIMEOUT 900)
+  foreach(check headers_alone benchmarks_compile)
+    add_test(NAME ${check}
+      COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target ${check} --parallel ${processors} ${keep_going})
+    set_tests_properties(${check} PROPERTIES RUN_SERIAL ON TIMEOUT 900)
+  endforeach()
 endif()
 
 # Formatting: the answer depends on the version.

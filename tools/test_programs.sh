@@ -4,7 +4,7 @@
 
 root=$PWD
 # The checks of the sources, of the manual and of other projects have no program that a tool could look into.
-not_programs='^(headers_alone|check_format|manual_.*|consumer_.*|install_.*)$'
+not_programs='^(headers_alone|benchmarks_compile|check_format|manual_.*|consumer_.*|install_.*)$'
 
 build_test_programs() { # [CTEST OPTION...]; sets `programs`
   local name

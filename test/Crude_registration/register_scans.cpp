@@ -248,7 +248,7 @@ BOOST_AUTO_TEST_CASE(the_same_bits_by_several_threads)
 #ifdef CGAL_LINKED_WITH_TBB
   for (int b : {45, 90, 180}) {
     const Result alone = CR::register_scans(view(0, 0).scan, view(0, b).scan);
-    for (std::size_t threads : {2, 5}) {
+    for (const std::size_t threads : {2u, 5u}) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
       check_same_bits(alone, CR::register_scans<CGAL::Parallel_tag>(view(0, 0).scan, view(0, b).scan));
     }

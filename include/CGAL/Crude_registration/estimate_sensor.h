@@ -10,8 +10,8 @@
 
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/symmetric_eigen.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -150,22 +150,21 @@ private:
   void fit_parallel()
   {
     // the coordinates are centred: the moments fall into the covariance of the points and 1
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(m_moments.topLeftCorner<3, 3>()));
+    const auto [values, vectors] = symmetric_eigen(m_moments.topLeftCorner<3, 3>());
     // what is flatter than the rounding of single precision says nothing about the third dimension
-    m_is_flat = !(solver.eigenvalues()[0] > 1e-13);
+    m_is_flat = !(values[0] > 1e-13);
     if (m_is_flat) return;
-    m_inverse_covariance =
-        solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
+    m_inverse_covariance = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
     for (Axis& axis : m_axes) axis.parallel << m_inverse_covariance * axis.sum.head<3>(), axis.sum(3);
   }
 
-  // The unit vector h for which h^T A h is smallest, and whether it is so by far. (Matrices of dynamic size: unrolled
-  // for 8 and 12 they take a compiler ten seconds.)
+  // The unit vector h for which h^T A h is smallest, and whether it is so by far. (Matrices of dynamic size, as of one
+  // type they compile once.)
   static bool null_vector(const Eigen::MatrixXd& a, Eigen::VectorXd& h)
   {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
-    h = solver.eigenvectors().col(0);
-    return solver.eigenvalues()[1] > 1e-11 && solver.eigenvalues()[0] < 0.01 * solver.eigenvalues()[1];
+    const auto [values, vectors] = symmetric_eigen(a);
+    h = vectors.col(0);
+    return values[1] > 1e-11 && values[0] < 0.01 * values[1];
   }
 
   // numerator.X - w denominator.X = 0

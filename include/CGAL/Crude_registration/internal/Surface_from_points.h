@@ -13,10 +13,10 @@
 #include <CGAL/Crude_registration/internal/advancing_front.h>
 #include <CGAL/Crude_registration/internal/flat_mesh_repair.h>
 #include <CGAL/Crude_registration/internal/likely_viewpoint.h>
+#include <CGAL/Crude_registration/internal/symmetric_eigen.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -79,9 +79,9 @@ private:
     m_centroid = m_points.front() + sum / static_cast<double>(m_points.size());
     Matrix covariance = Matrix::Zero();
     for (const Vector& p : m_points) covariance += (p - m_centroid) * (p - m_centroid).transpose();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
-    m_axes = solver.eigenvectors();
-    m_is_line = !(solver.eigenvalues()[1] > 1e-14 * solver.eigenvalues()[2]); // or one point, many times
+    const Symmetric_eigen<Matrix> eigen = symmetric_eigen(covariance);
+    m_axes = eigen.vectors;
+    m_is_line = !(eigen.values[1] > 1e-14 * eigen.values[2]); // or one point, many times
     m_local.reserve(m_points.size());
     Vector third = Vector::Zero();
     for (const Vector& p : m_points) {

@@ -9,8 +9,8 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_FREE_MOTIONS_H
 
 #include <CGAL/Crude_registration/internal/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/symmetric_eigen.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <locale>
@@ -39,7 +39,7 @@ inline Free_motions name_free_motions(const std::vector<Eigen::Matrix<double, 6,
   if (free.empty() || !(radius > 0)) return names;
   // In units of length, about the centre, orthonormal.
   const Eigen::Index n = Eigen::Index(free.size());
-  Eigen::MatrixXd basis(6, n);
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> basis(6, n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const Vector w = free[std::size_t(k)].head<3>(), v = free[std::size_t(k)].tail<3>();
     basis.col(k) << radius * w, v + w.cross(centre);
@@ -47,8 +47,8 @@ inline Free_motions name_free_motions(const std::vector<Eigen::Matrix<double, 6,
     basis.col(k).normalize();
   }
   // Its turns from the largest to none.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> turns(basis.topRows(3).transpose() * basis.topRows(3));
-  basis = basis * turns.eigenvectors().rowwise().reverse();
+  const auto turns = symmetric_eigen(basis.topRows<3>().transpose() * basis.topRows<3>());
+  basis = basis * turns.vectors.rowwise().reverse();
 
   const auto text = [](const Vector& v) {
     std::ostringstream out;

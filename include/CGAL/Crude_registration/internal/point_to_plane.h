@@ -9,10 +9,10 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_POINT_TO_PLANE_H
 
 #include <CGAL/Crude_registration/internal/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/symmetric_eigen.h>
 
 #include <CGAL/for_each.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -222,11 +222,11 @@ private:
   // The step; it has no part along motions about which the matches say nothing.
   Rigid_motion solve() const
   {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m_normal_matrix); // of fixed size: 20 s to compile
+    const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(m_normal_matrix);
     Vector_6 x = Vector_6::Zero();
     for (int k = 0; k < 6; ++k)
-      if (eigen.eigenvalues()[k] > smallest_information())
-        x += eigen.eigenvectors().col(k).dot(m_right_side) / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
+      if (eigen.values[k] > smallest_information())
+        x += eigen.vectors.col(k).dot(m_right_side) / eigen.values[k] * eigen.vectors.col(k);
 
     // Both sides turn by half the angle, of tangent |a| / 2, in opposite directions.
     const Vector a = x.head<3>() / (2 * m_radius), t = m_source_mean - m_target_mean + x.tail<3>();
@@ -301,11 +301,11 @@ private:
     // its standard deviation exceeds s. The eigenvectors v_k of A v = mu N v have v_k^T N v_k = 1 and, with them,
     // A^-1 = sum_k v_k v_k^T / mu_k.
     const Matrix_6 noise = 2 * noise_matrix() + smallest_information() * Matrix_6::Identity();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m_normal_matrix, noise);
+    const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(m_normal_matrix, noise);
     for (int k = 0; k < 6; ++k) {
-      const double information = eigen.eigenvalues()[k];
-      const Vector_6 v = to_origin * eigen.eigenvectors().col(k);
-      const double length = eigen.eigenvectors().col(k).norm();
+      const double information = eigen.values[k];
+      const Vector_6 v = to_origin * eigen.vectors.col(k);
+      const double length = eigen.vectors.col(k).norm();
       if (information > 1) result.covariance += variance() / information * v * v.transpose();
       else {
         // As uncertain as the matched surface is large.

@@ -12,6 +12,7 @@
 #include <CGAL/Crude_registration/internal/Pose_search.h>
 #include <CGAL/Crude_registration/internal/free_motions.h>
 #include <CGAL/Crude_registration/internal/point_to_plane.h>
+#include <CGAL/Crude_registration/internal/symmetric_eigen.h>
 
 #include <chrono>
 
@@ -237,12 +238,12 @@ std::vector<Vector_6> free_motions(const Search& search, const Rigid_motion& mot
   to_centre.bottomLeftCorner<3, 3>() = -cross; // v + w x c
   from_centre.topLeftCorner<3, 3>() /= radius;
   from_centre.bottomLeftCorner<3, 3>() = cross / radius;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(to_centre * covariance * to_centre.transpose());
+  const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(to_centre * covariance * to_centre.transpose());
   constexpr float as_well = 0.75f;
   const float there = search.assess(to_pose(motion)).score();
   std::vector<Vector_6> free;
   for (int k = 5; k >= 0; --k) {
-    const Vector_6 twist = from_centre * eigen.eigenvectors().col(k);
+    const Vector_6 twist = from_centre * eigen.vectors.col(k);
     const auto score = [&](double distance) {
       return search.assess(to_pose(exponential(twist, distance) * motion)).score();
     };

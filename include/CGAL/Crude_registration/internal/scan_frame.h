@@ -10,8 +10,7 @@
 
 #include <CGAL/Crude_registration/internal/Curvature_tensors.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
-
-#include <Eigen/Eigenvalues>
+#include <CGAL/Crude_registration/internal/symmetric_eigen.h>
 
 #include <algorithm>
 #include <array>
@@ -91,7 +90,7 @@ inline Rigid_motion scan_frame(const Flat_mesh& mesh, const std::vector<double>&
     if (normal.norm() >= 0.1 * area) {
       z = normal.normalized();
     } else {
-      z = Eigen::SelfAdjointEigenSolver<Matrix>(covariance).eigenvectors().col(0);
+      z = symmetric_eigen(covariance).vectors.col(0);
       if (skewness(z) < 0) z = -z;
     }
   }
