@@ -129,8 +129,8 @@ public:
         prepare_image(file.image, np, name, control);
         break;
       case Scan_file<Kernel>::MESH:
-        prepare(internal::to_flat_mesh(file.mesh, parameters::default_values(), name, "it"), given_sensor(np, name),
-                name, control);
+        prepare(internal::to_flat_mesh(file.mesh, parameters::default_values(), name, "it", control),
+                given_sensor(np, name), name, control);
         break;
       case Scan_file<Kernel>::POINTS:
         prepare_points(file.points, np, name, control);
@@ -177,7 +177,7 @@ private:
   void prepare_mesh(const FaceGraph& mesh, const NamedParameters& np, const std::string& name,
                     internal::Run_control& control)
   {
-    prepare(internal::to_flat_mesh(mesh, np, name, "it"), given_sensor(np, name), name, control);
+    prepare(internal::to_flat_mesh(mesh, np, name, "it", control), given_sensor(np, name), name, control);
   }
 
   template <class NamedParameters>

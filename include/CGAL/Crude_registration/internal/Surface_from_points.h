@@ -177,7 +177,7 @@ private:
       const Vector q = (p - m_centroid) / m_spacing;
       input.emplace_back(q.x(), q.y(), q.z());
     }
-    for (const auto& f : advancing_front(input, Priority{m_ratio * m_ratio / 4, &m_control}))
+    for (const auto& f : advancing_front(input, Priority{m_ratio * m_ratio / 4, &m_control}, m_control))
       mesh.faces.push_back(
           {static_cast<std::int32_t>(f[0]), static_cast<std::int32_t>(f[1]), static_cast<std::int32_t>(f[2])});
   }

@@ -8,15 +8,20 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_ADVANCING_FRONT_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_ADVANCING_FRONT_H
 
+#include <CGAL/Crude_registration/internal/Run_control.h>
+
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 #include <CGAL/tags.h>
 
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <numeric>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -83,19 +88,28 @@ private:
 };
 
 // CGAL::advancing_front_surface_reconstruction(), the same for the same points. The faces are triples of indices.
+// \throws Run_control::Stopped
 template <class Priority>
 std::vector<std::array<std::size_t, 3>>
 advancing_front(const std::vector<Exact_predicates_inexact_constructions_kernel::Point_3>& points,
-                const Priority& priority)
+                const Priority& priority, Run_control& control)
 {
   using Kernel = Exact_predicates_inexact_constructions_kernel;
   using Triangulation =
       Delaunay_triangulation_3<Kernel,
                                Triangulation_data_structure_3<Front_vertex_base<Kernel>, Front_cell_base<Kernel>>>;
-  std::vector<std::pair<Kernel::Point_3, std::size_t>> numbered;
-  numbered.reserve(points.size());
-  for (const Kernel::Point_3& p : points) numbered.emplace_back(p, numbered.size());
-  Triangulation triangulation(numbered.begin(), numbered.end());
+  // As the triangulation inserts a range, but that it can be stopped.
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto point_map = make_property_map(points);
+  spatial_sort(order.begin(), order.end(), Spatial_sort_traits_adapter_3<Kernel, decltype(point_map)>(point_map));
+  Triangulation triangulation;
+  typename Triangulation::Vertex_handle last;
+  for (const std::size_t i : order) {
+    control.check();
+    last = triangulation.insert(points[i], last);
+    last->info() = i;
+  }
   Advancing_front_surface_reconstruction<Triangulation, Priority> front(triangulation, priority);
   front.run();
   std::vector<std::array<std::size_t, 3>> faces;

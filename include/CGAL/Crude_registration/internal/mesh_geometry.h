@@ -9,6 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_GEOMETRY_H
 
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/boost/graph/helpers.h>
@@ -189,9 +190,10 @@ inline void check_size(const std::vector<Vector>& points, const std::string& fun
 // face included, null faces left out.
 // `function` and `argument` name the caller and its argument in the text of what is thrown:
 // std::invalid_argument for a face that is not a triangle, a coordinate that is not finite, more than 2^31 - 1 vertices
-// or faces.
+// or faces; Run_control::Stopped.
 template <class Face_graph, class NP>
-Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string& function, const std::string& argument)
+Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string& function, const std::string& argument,
+                       Run_control& control)
 {
   const auto point_map = const_vertex_point_map(graph, np);
   const auto index_map = CGAL::get_initialized_vertex_index_map(graph);
@@ -205,6 +207,7 @@ Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string&
   // Removed elements that have not been collected leave gaps in the graph's own indices.
   std::vector<std::int32_t> flat_index(num_vertices(graph), -1);
   for (auto v : vertices(graph)) {
+    control.check(mesh.points.size());
     const auto& p = get(point_map, v);
     const Vector q(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
     if (!q.allFinite())
@@ -215,6 +218,7 @@ Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string&
   }
   check_size(mesh.points, function, argument);
   for (auto f : faces(graph)) {
+    control.check(mesh.faces.size());
     const auto h = halfedge(f, graph);
     const auto h1 = next(h, graph), h2 = next(h1, graph);
     if (next(h2, graph) != h || h2 == h || h1 == h)
@@ -225,6 +229,13 @@ Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string&
                           flat_index[std::size_t(get(index_map, target(h2, graph)))]});
   }
   return mesh;
+}
+
+template <class Face_graph, class NP>
+Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string& function, const std::string& argument)
+{
+  Run_control to_the_end;
+  return to_flat_mesh(graph, np, function, argument, to_the_end);
 }
 
 } // namespace internal
