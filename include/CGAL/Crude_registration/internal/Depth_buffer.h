@@ -124,7 +124,7 @@ private:
   Matrix_f m_axes = Matrix_f::Identity();
   float m_low_x = 0, m_low_y = 0, m_scale = 1;
   int m_columns = 0, m_rows = 0;
-  std::vector<float> m_depths;
+  std::vector<float> m_depths = {-(std::numeric_limits<float>::max)()}; // at least one, that knows nothing
 };
 
 } // namespace internal

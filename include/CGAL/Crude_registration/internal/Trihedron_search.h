@@ -76,9 +76,9 @@ struct Trihedron_search_parameters
   // its trihedra in the whole D-mesh and scores every candidate.
   std::vector<Trihedron_pass> passes = {{{2. / 3}, 1, 0.7, 9, 0.12, 16, 0.025},
                                         {{2. / 3}, 1, 0.7, 12, 0.15, 16, 0.065},
-                                        {{1, 2. / 3}, 1, 0.7, 15, 0.2, 10, 1},
-                                        {{1, 2. / 3}, 4, 0.7, 20, 0.2, 32, 1},
-                                        {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4, 48, 1}};
+                                        {{1, 2. / 3}, 1, 0.7, 15, 0.2, 10, 10},
+                                        {{1, 2. / 3}, 4, 0.7, 20, 0.2, 32, 10},
+                                        {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4, 48, 10}};
   double certain_score = 0.1;
   // All candidates are scored by a few of the vertices, the best of them by more, the best of these by all; the best
   // distinct ones are estimated again from all vertices, scored again by all, and refined from the best one on until
