@@ -81,14 +81,12 @@ public:
     std::vector<float> z_distances; // squared, of the voxels of each block that is met
     for (std::size_t i = 0; i < surfels.size(); ++i) {
       const Vector_f p = (surfels[i].position - m_low) * m_scale;
+      if (!((p.array() >= 0).all() && (p.array() < m_size.array()).all())) continue; // far away, or not a number
       int from[3], to[3];
-      bool inside = true;
       for (int k = 0; k < 3; ++k) {
-        inside = inside && p[k] >= 0 && p[k] < m_size[k];
         from[k] = (std::max)(0, int(std::ceil(p[k] - reach_in_voxels - 0.5f)));
         to[k] = (std::min)(int(m_size[k]) - 1, int(std::floor(p[k] + reach_in_voxels - 0.5f)));
       }
-      if (!inside) continue;
       // The voxels of a block follow each other along z: four at a time, without a branch.
       from[2] &= ~3;
       z_distances.clear();
