@@ -57,7 +57,8 @@ motions are between frames of inputs.
 
 All constructors take the named parameters `time_budget`, seconds after which the preparation ends, and `visitor`, which
 may end it (see `register_scans()`), by `Preparation_interrupted`: within a tenth of a second for each two million
-samples; within two tenths where points are joined whose sensor is not known.
+samples; within two tenths where points are joined whose sensor is not known. What is thrown by the visitor is passed
+on. A `time_budget` that is not a finite number above zero is refused by `std::invalid_argument`.
 
 Complexity: linear in the size of the input; the size of the result is bounded (some megabytes).
 */

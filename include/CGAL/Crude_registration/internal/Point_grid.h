@@ -105,8 +105,8 @@ private:
         f(std::size_t(m_begin[cell(from[0], y, z)]), std::size_t(m_begin[cell(to[0], y, z) + 1]));
   }
 
-  // f(index, squared distance) for those of the entries that are within `radius` of p. About half of them are, so they
-  // are first collected, without a branch, some at a time.
+  // f(index, squared distance) for those of the entries that are within `radius` of p. Which are cannot be foretold:
+  // they are first collected, without a branch, some at a time.
   template <class Function>
   void for_each_of(const Vector& p, double radius, std::size_t from, std::size_t to, Function&& f) const
   {
