@@ -280,7 +280,8 @@ int run_register(const std::vector<std::string>& arguments)
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do "
       "not tell it");
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
-  add("time-budget", po::value<double>(), "seconds after which preparation and search end, with the best so far");
+  add("time-budget", po::value<double>(),
+      "seconds from the start after which preparation and search end, with the best so far");
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
   add("times", "add the times to the JSON");
@@ -324,11 +325,15 @@ int run_register(const std::vector<std::string>& arguments)
   std::array<Side, 2> sides;
   sides[0].file = map["SOURCE"].as<std::string>();
   sides[1].file = map["TARGET"].as<std::string>();
+  const auto left = [&, begin = std::chrono::steady_clock::now()] { // of the time budget
+    constexpr double shortest = 1e-9;
+    return (std::max)(shortest, time_budget - seconds_since(begin));
+  };
   CGAL::for_each<CGAL::Parallel_if_available_tag>(sides, [&](Side& side) {
     try {
       side.contents = CR::read_scan<Kernel>(side.file);
       const auto start = std::chrono::steady_clock::now();
-      const auto within = CR::parameters::time_budget(time_budget);
+      const auto within = CR::parameters::time_budget(left());
       side.scan = viewpoint ? std::make_unique<const Scan>(side.contents, within.viewpoint(*viewpoint), side.file)
                             : std::make_unique<const Scan>(side.contents, within, side.file);
       side.seconds = seconds_since(start);
@@ -348,10 +353,8 @@ int run_register(const std::vector<std::string>& arguments)
     Result::Parts parts;
     parts.reason = source.scan ? target.interruption : source.interruption;
     if (!source.scan || !target.scan) return Result(std::move(parts));
-    constexpr double shortest = 1e-9;
-    const double left = (std::max)(shortest, time_budget - (std::max)(source.seconds, target.seconds));
     return CR::register_scans<CGAL::Parallel_if_available_tag>(
-        *source.scan, *target.scan, CR::parameters::minimum_extent(f1).maximum_extent(f2).time_budget(left));
+        *source.scan, *target.scan, CR::parameters::minimum_extent(f1).maximum_extent(f2).time_budget(left()));
   };
   const Result result = answer();
   const double search_seconds = seconds_since(start);

@@ -19,6 +19,7 @@
 #include <CGAL/Crude_registration/triangulate_points.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/property_map.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -56,9 +57,10 @@ motions are between frames of inputs.
 \tparam Kernel_ a model of `Kernel`
 
 All constructors take the named parameters `time_budget`, seconds after which the preparation ends, and `visitor`, which
-may end it (see `register_scans()`), by `Preparation_interrupted`: within a tenth of a second for each two million
-samples; within two tenths where points are joined whose sensor is not known. What is thrown by the visitor is passed
-on. A `time_budget` that is not a finite number above zero is refused by `std::invalid_argument`.
+may end it (see `register_scans()`), by `Preparation_interrupted`: within a tenth of a second for scans of up to five
+million samples; within two tenths where points are joined whose sensor is not known, as the front ends in one step.
+What is thrown by the visitor is passed on. A `time_budget` that is not a finite number above zero is refused by
+`std::invalid_argument`.
 
 Complexity: linear in the size of the input; the size of the result is bounded (some megabytes).
 */
@@ -163,6 +165,8 @@ public:
   /// \endcond
 
 private:
+  static constexpr double maximum_edge_ratio = 5; // as triangulate_range_image() and triangulate_points() have it
+
   template <class NamedParameters, class Function>
   static void within_limits(const NamedParameters& np, const std::string& name, const Function& f)
   {
@@ -187,28 +191,18 @@ private:
   {
     internal::Flat_range_image flat(image);
     if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = given_sensor(np, name);
-    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::Sensor_estimation(flat)();
-    control.check();
-    const internal::Sampling sampling = internal::sampling(flat);
-    control.check();
-    prepare(internal::flat_triangulation(flat, sampling), flat.sensor, name, control);
+    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::Sensor_estimation(flat, control)();
+    prepare(internal::flat_triangulation(flat, internal::sampling(flat, control), maximum_edge_ratio, control),
+            flat.sensor, name, control);
   }
 
   template <class NamedParameters>
   void prepare_points(const std::vector<Point_3>& points, const NamedParameters& np, const std::string& name,
                       internal::Run_control& control)
   {
-    std::vector<internal::Vector> flat;
-    flat.reserve(points.size());
-    for (const Point_3& p : points) {
-      flat.push_back(internal::to_vector(p));
-      if (!flat.back().allFinite())
-        throw std::invalid_argument(name + ": point " + std::to_string(flat.size() - 1) +
-                                    " has a coordinate that is not finite");
-    }
-    constexpr double maximum_edge_ratio = 5; // as for range images
+    const std::vector<internal::Vector> flat =
+        internal::finite_points(points, CGAL::Identity_property_map<Point_3>(), name, control);
     const internal::Flat_sensor sensor = given_sensor(np, name);
-    control.check();
     prepare(internal::flat_triangulation(flat, sensor, maximum_edge_ratio, control), sensor, name, control);
   }
 

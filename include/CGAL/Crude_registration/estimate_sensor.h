@@ -10,6 +10,7 @@
 
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/symmetric_eigen.h>
 
 #include <Eigen/Geometry>
@@ -41,8 +42,11 @@ class Sensor_estimation
   using Matrix_4 = Eigen::Matrix4d;
 
 public:
-  explicit Sensor_estimation(const Flat_range_image& image) : m_image(image) {}
+  explicit Sensor_estimation(const Flat_range_image& image, Run_control& control = to_the_end())
+      : m_image(image), m_control(control)
+  {}
 
+  // \throws Run_control::Stopped
   Flat_sensor operator()()
   {
     if (!normalise()) return Flat_sensor();
@@ -82,9 +86,11 @@ private:
   void for_each_sample(Visitor visitor) const
   {
     const std::int32_t* cell = m_image.grid;
-    for (std::size_t row = 0; row < m_image.rows; ++row)
+    for (std::size_t row = 0; row < m_image.rows; ++row) {
+      m_control.check();
       for (std::size_t column = 0; column < m_image.columns; ++column, ++cell)
         if (*cell >= 0) visitor(static_cast<double>(column), static_cast<double>(row), m_image.point(*cell));
+    }
   }
 
   // Points are centred and scaled to a root mean square distance of 1 from the centroid, columns and rows together
@@ -300,6 +306,7 @@ private:
       if (step > 0) ++approaching;
     };
     for (std::size_t row = 0; row < m_image.rows; ++row) {
+      m_control.check();
       for (std::size_t column = 0; column < m_image.columns; ++column) {
         const std::int32_t* cell = m_image.grid + row * m_image.columns + column;
         for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -315,6 +322,7 @@ private:
   }
 
   const Flat_range_image& m_image;
+  Run_control& m_control;
   double m_count = 0;
   Vector m_origin = Vector::Zero(); // normalised x = (p - origin) / scale
   double m_scale = 1;

@@ -33,12 +33,31 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
+// `where` names the function and its argument in the text of what is thrown: std::invalid_argument for a coordinate
+// that is not finite, or more than 2^31 - 1 points; Run_control::Stopped.
+template <class PointRange, class PointMap>
+std::vector<Vector> finite_points(const PointRange& points, const PointMap& point_map, const std::string& where,
+                                  Run_control& control = to_the_end())
+{
+  std::vector<Vector> result;
+  for (const auto& element : points) {
+    control.check(result.size());
+    result.push_back(to_vector(get(point_map, element)));
+    if (!result.back().allFinite())
+      throw std::invalid_argument(where + ": point " + std::to_string(result.size() - 1) +
+                                  " has a coordinate that is not finite");
+    if (result.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+      throw std::invalid_argument(where + ": there are more than 2^31 - 1 points");
+  }
+  return result;
+}
+
 // \throws Run_control::Stopped
 inline Flat_mesh flat_triangulation(const std::vector<Vector>& points, const Flat_sensor& sensor,
-                                    double maximum_edge_ratio, Run_control& control)
+                                    double maximum_edge_ratio, Run_control& control = to_the_end())
 {
   if (sensor.kind == Flat_sensor::UNKNOWN) return Surface_from_points(points, maximum_edge_ratio, control)();
-  return Projected_triangulation(points, sensor, maximum_edge_ratio)();
+  return Projected_triangulation(points, sensor, maximum_edge_ratio, control)();
 }
 
 // The sensor that the parameters `viewpoint` and `viewing_direction` give, or an unknown one.
@@ -133,17 +152,8 @@ void triangulate_points(const PointRange& points, FaceGraph& mesh,
       internal::positive_parameter(np, internal_np::maximum_edge_ratio, 5, "triangulate_points", "maximum_edge_ratio");
   const internal::Flat_sensor sensor = internal::sensor_parameter(np, "triangulate_points");
   const auto point_map = internal::parameter(np, internal_np::point_map, CGAL::Identity_property_map<Element>());
-  std::vector<internal::Vector> flat;
-  for (const auto& element : points) {
-    flat.push_back(internal::to_vector(get(point_map, element)));
-    if (!flat.back().allFinite())
-      throw std::invalid_argument("triangulate_points: point " + std::to_string(flat.size() - 1) +
-                                  " of points has a coordinate that is not finite");
-  }
-  if (flat.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw std::invalid_argument("triangulate_points: points has more than 2^31 - 1 elements");
-  internal::Run_control to_the_end;
-  internal::add_flat_mesh(internal::flat_triangulation(flat, sensor, ratio, to_the_end), mesh, np);
+  const std::vector<internal::Vector> flat = internal::finite_points(points, point_map, "triangulate_points: points");
+  internal::add_flat_mesh(internal::flat_triangulation(flat, sensor, ratio), mesh, np);
 }
 
 } // namespace Crude_registration

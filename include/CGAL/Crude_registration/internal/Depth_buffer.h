@@ -9,6 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_DEPTH_BUFFER_H
 
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/Surfel_field.h>
 
 namespace CGAL {
@@ -25,8 +26,9 @@ public:
 
   // `direction`: unit, from the sensor into the scene; for a perspective sensor at `viewpoint` its mean direction.
   // `cell`: the edge length of a cell, for a perspective sensor at the mean range.
+  // \throws Run_control::Stopped
   Depth_buffer(Flat_sensor::Kind kind, const Vector_f& viewpoint, const Vector_f& direction,
-               const std::vector<Vector_f>& samples, float cell)
+               const std::vector<Vector_f>& samples, float cell, Run_control& control = to_the_end())
       : m_kind(samples.empty() ? Flat_sensor::UNKNOWN : kind)
   {
     m_viewpoint = viewpoint;
@@ -39,7 +41,9 @@ public:
     std::vector<Vector_f> projected; // x, y, depth
     projected.reserve(samples.size());
     double sum = 0;
+    std::size_t steps = 0;
     for (const Vector_f& p : samples) {
+      control.check(++steps);
       const Vector_f q = project(p);
       if (!q.allFinite()) continue;
       projected.push_back(q);
@@ -65,13 +69,15 @@ public:
     constexpr float far = (std::numeric_limits<float>::max)();
     std::vector<float> nearest(std::size_t(m_columns) * std::size_t(m_rows), far);
     for (const Vector_f& q : projected) {
+      control.check(++steps);
       float& d = nearest[std::size_t(int((q[0] - m_low_x) * m_scale)) * std::size_t(m_rows) +
                          std::size_t(int((q[1] - m_low_y) * m_scale))];
       d = (std::min)(d, q[2]);
     }
     // A cell at a hole or at the border of what was seen knows nothing.
     m_depths.assign(nearest.size(), -far);
-    for (int i = 1; i + 1 < m_columns; ++i)
+    for (int i = 1; i + 1 < m_columns; ++i) {
+      control.check();
       for (int j = 1; j + 1 < m_rows; ++j) {
         const std::size_t c = std::size_t(i) * std::size_t(m_rows) + std::size_t(j);
         if (nearest[c] == far) continue;
@@ -85,6 +91,7 @@ public:
           }
         if (filled >= 7) m_depths[c] = least;
       }
+    }
   }
 
   bool is_known() const { return m_kind != Flat_sensor::UNKNOWN; }

@@ -10,6 +10,7 @@
 
 #include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/internal/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 
 #include <CGAL/number_utils.h>
 
@@ -107,7 +108,8 @@ struct Sampling
 // The larger of the two medians, along rows and along columns, of the distances between adjacent samples, measured
 // perpendicular to the line of sight: "the maximum distance between adjacent range points when we flatten the range
 // image" (section 4), made robust. Distances 0 do not count. Without a sensor the distances are those in space.
-inline Sampling sampling(const Flat_range_image& image)
+// \throws Run_control::Stopped
+inline Sampling sampling(const Flat_range_image& image, Run_control& control = to_the_end())
 {
   const bool is_perspective = image.sensor.kind == Flat_sensor::PERSPECTIVE;
   const bool is_known = image.sensor.kind != Flat_sensor::UNKNOWN;
@@ -120,6 +122,7 @@ inline Sampling sampling(const Flat_range_image& image)
     const std::size_t columns = axis == 0 && image.columns > 0 ? image.columns - 1 : image.columns;
     const std::size_t rows = axis == 1 && image.rows > 0 ? image.rows - 1 : image.rows;
     for (std::size_t row = 0; row < rows; ++row) {
+      control.check();
       const std::int32_t* cell = image.grid + row * image.columns;
       for (std::size_t column = 0; column < columns; ++column, ++cell) {
         if (cell[0] < 0 || cell[step] < 0) continue;
@@ -140,14 +143,17 @@ inline Sampling sampling(const Flat_range_image& image)
       }
     }
     medians[axis] = median(distances);
+    control.check();
   }
   Sampling s;
   s.distance = std::max(medians[0], medians[1]);
   if (is_perspective) {
     std::vector<double>& ranges = distances;
     ranges.clear();
-    for (std::size_t cell = 0; cell < image.columns * image.rows; ++cell)
+    for (std::size_t cell = 0; cell < image.columns * image.rows; ++cell) {
+      control.check(cell);
       if (image.grid[cell] >= 0) ranges.push_back((image.point(image.grid[cell]) - image.sensor.vector).norm());
+    }
     s.angle = s.distance;
     s.distance *= median(ranges);
   }

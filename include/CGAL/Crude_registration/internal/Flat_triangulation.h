@@ -10,6 +10,7 @@
 
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 
 #include <Eigen/Geometry>
 
@@ -38,8 +39,8 @@ class Flat_triangulation
 public:
   // no edge is longer than `ratio` times the sampling distance, the one at the edge's nearer end under a perspective
   // sensor
-  Flat_triangulation(const Flat_range_image& image, const Sampling& sampling, double ratio)
-      : m_image(image), m_has_extent(sampling.distance > 0)
+  Flat_triangulation(const Flat_range_image& image, const Sampling& sampling, double ratio, Run_control& control)
+      : m_image(image), m_control(control), m_has_extent(sampling.distance > 0)
   {
     const double factor = 1 + 1e-9; // an edge of just this length is not left to rounding
     const double distance = ratio * sampling.distance;
@@ -49,8 +50,10 @@ public:
       for (std::size_t i = 0; i < image.points.size(); ++i)
         m_squared_limits[i] = factor * angle * angle * (image.points[i] - image.sensor.vector).squaredNorm();
     }
+    control.check();
   }
 
+  // \throws Run_control::Stopped
   Flat_mesh operator()()
   {
     Flat_mesh mesh;
@@ -120,6 +123,7 @@ private:
     m_codes.assign(m_image.columns * m_image.rows, 0);
     std::ptrdiff_t towards = 0; // faces turned to the sensor less those turned away
     for (std::size_t row = 0; row + 1 < m_image.rows; ++row) {
+      m_control.check();
       for (std::size_t column = 0; column + 1 < m_image.columns; ++column) {
         const std::size_t cell = row * m_image.columns + column;
         const unsigned code = code_of_cell(cell);
@@ -175,6 +179,7 @@ private:
     m_fan_starts.assign(m_image.points.size(), 0);
     mesh.points.reserve(m_image.points.size());
     for (std::size_t row = 0; row < m_image.rows; ++row) {
+      m_control.check();
       for (std::size_t column = 0; column < columns; ++column) {
         const std::size_t cell = row * columns + column;
         if (!is_valid(cell)) continue;
@@ -197,6 +202,7 @@ private:
   {
     mesh.faces.reserve(m_number_of_faces);
     for (std::size_t cell = 0; cell < m_codes.size(); ++cell) {
+      m_control.check(cell);
       if (m_codes[cell] == 0) continue;
       for (unsigned t = 0; t < 4; ++t) {
         if ((m_codes[cell] >> t & 1u) == 0) continue;
@@ -221,6 +227,7 @@ private:
   }
 
   const Flat_range_image& m_image;
+  Run_control& m_control;
   const bool m_has_extent;                // are there adjacent samples apart from each other?
   std::vector<double> m_squared_limits;   // per sample
   std::vector<std::uint8_t> m_codes;      // per cell: the set of its triangles, by its corner A
@@ -230,11 +237,11 @@ private:
   bool m_is_reversed = false;
 };
 
-// Complexity: linear in the number of cells.
+// Complexity: linear in the number of cells. \throws Run_control::Stopped
 inline Flat_mesh flat_triangulation(const Flat_range_image& image, const Sampling& sampling,
-                                    double maximum_edge_ratio = 5)
+                                    double maximum_edge_ratio = 5, Run_control& control = to_the_end())
 {
-  return Flat_triangulation(image, sampling, maximum_edge_ratio)();
+  return Flat_triangulation(image, sampling, maximum_edge_ratio, control)();
 }
 
 } // namespace internal

@@ -14,14 +14,13 @@
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
 #include <CGAL/Crude_registration/internal/Point_grid.h>
 #include <CGAL/Crude_registration/internal/Run_control.h>
+#include <CGAL/Crude_registration/internal/cell_items.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/scan_frame.h>
 #include <CGAL/Crude_registration/internal/Surfel_field.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-
-#include <boost/sort/spreadsort/integer_sort.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -69,28 +68,18 @@ struct Prepared_scan
 inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std::vector<Vector_f>& normals,
                                   const std::vector<float>& weights, float cell, Run_control& control)
 {
-  struct Item
-  {
-    std::uint64_t key;
-    std::uint32_t index;
-  };
-  std::vector<Item> items(points.size());
+  std::vector<Cell_item> items(points.size());
   const float scale = 1 / cell;
   constexpr float limit = float(1 << 20) - 1;
   const auto coordinate = [&](float x) {
     return std::uint64_t(std::int64_t(std::floor((std::min)((std::max)(x * scale, -limit), limit))) + (1 << 20));
   };
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    control.check(i);
     items[i] = {(coordinate(points[i][0]) << 42) | (coordinate(points[i][1]) << 21) | coordinate(points[i][2]),
                 std::uint32_t(i)};
-  std::size_t steps = 0;
-  boost::sort::spreadsort::integer_sort(
-      items.begin(), items.end(),
-      [&](const Item& a, unsigned shift) {
-        control.check(++steps);
-        return a.key >> shift;
-      },
-      [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  }
+  sort_cell_items(items, control);
 
   Surfel_level level;
   level.spacing = cell;
@@ -108,12 +97,13 @@ inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std
     level.surfels.push_back(surfel);
     level.weights.push_back(float(s.weight));
   };
-  const auto is_less = [&](const Item& a, const Item& b) {
+  const auto is_less = [&](const Cell_item& a, const Cell_item& b) {
     const Vector_f &p = points[a.index], &q = points[b.index];
     return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
   };
+  std::size_t cells = 0;
   for (std::size_t from = 0; from < items.size();) {
-    control.check(++steps);
+    control.check(++cells);
     Sum front, back;
     std::size_t to = from, least = from;
     Vector all = Vector::Zero();
@@ -297,11 +287,11 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vecto
     return samples;
   }
   constexpr double grazing = 0.12;
-  const std::vector<Vector> normals = vertex_normals(mesh);
-  control.check();
+  const std::vector<Vector> normals = vertex_normals(mesh, control);
   samples.points.reserve(mesh.points.size());
   samples.normals.reserve(mesh.points.size());
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    control.check(i);
     if (normals[i].isZero()) continue;
     if (sensor.kind != Flat_sensor::UNKNOWN) {
       const Vector sight = sensor.towards(mesh.points[i]);
@@ -345,7 +335,7 @@ inline double hidden_share(const Depth_buffer& depths, const std::vector<Vector_
 // A scan of fewer than four surfels cannot be registered; what it holds is prepared all the same.
 // \throws Run_control::Stopped
 inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
-                                  const Preparation_parameters& parameters, Run_control& control)
+                                  const Preparation_parameters& parameters = {}, Run_control& control = to_the_end())
 {
   Prepared_scan scan;
   Vector direction = Vector::Zero();
@@ -354,12 +344,11 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
     for (const Vector& p : mesh.points) direction += unit_or_zero(p - sensor.vector);
     direction = unit_or_zero(direction);
   }
-  const std::vector<double> areas = face_areas(mesh);
   control.check();
-  scan.own_from_input = scan_frame(mesh, areas, direction);
-  control.check();
+  const std::vector<double> areas = face_areas(mesh, control);
+  scan.own_from_input = scan_frame(mesh, areas, direction, control);
   const Rigid_motion& own = scan.own_from_input;
-  const Vector size = extent_in_frame(mesh, own);
+  const Vector size = extent_in_frame(mesh, own, control);
   scan.extent = size.sum() / 3;
   const double area = std::accumulate(areas.begin(), areas.end(), 0.);
   if (!(area > 0)) return scan;
@@ -403,22 +392,15 @@ inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sens
   const Matrix_f rotation = own.rotation.cast<float>();
   if (sensor.kind != Flat_sensor::UNKNOWN) {
     scan.depths = Depth_buffer(sensor.kind, own(sensor.vector).cast<float>(), rotation * direction.cast<float>(),
-                               samples.points, cell);
+                               samples.points, cell, control);
   } else {
     const Vector_f likely = likely_viewing_direction(samples);
     if (!likely.isZero()) {
-      Depth_buffer depths(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell);
+      Depth_buffer depths(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell, control);
       if (hidden_share(depths, samples.points, float(0.1 * scan.extent)) < 0.02) scan.depths = std::move(depths);
     }
   }
   return scan;
-}
-
-inline Prepared_scan prepare_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
-                                  const Preparation_parameters& parameters = {})
-{
-  Run_control to_the_end;
-  return prepare_scan(mesh, sensor, parameters, to_the_end);
 }
 
 } // namespace internal

@@ -10,6 +10,7 @@
 
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/flat_mesh_repair.h>
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -19,6 +20,8 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
+
+#include <boost/property_map/function_property_map.hpp>
 
 #include <Eigen/Geometry>
 
@@ -49,11 +52,13 @@ class Projected_triangulation
 
 public:
   // a known sensor; the longest edge is as in Flat_triangulation
-  Projected_triangulation(const std::vector<Vector>& points, const Flat_sensor& sensor, double ratio)
-      : m_points(points), m_sensor(sensor), m_ratio(ratio)
+  Projected_triangulation(const std::vector<Vector>& points, const Flat_sensor& sensor, double ratio,
+                          Run_control& control)
+      : m_points(points), m_sensor(sensor), m_ratio(ratio), m_control(control)
   {}
 
   // Vertices in the order of the points. Of points on one line of sight only the nearest takes part.
+  // \throws Run_control::Stopped
   Flat_mesh operator()()
   {
     Flat_mesh mesh;
@@ -62,7 +67,7 @@ public:
     insert();
     measure_sampling();
     make_mesh(mesh);
-    split_non_manifold_vertices(mesh);
+    split_non_manifold_vertices(mesh, m_control);
     return mesh;
   }
 
@@ -79,6 +84,7 @@ private:
       m_directions.resize(m_points.size());
       axis = Vector::Zero();
       for (std::size_t i = 0; i < m_points.size(); ++i) {
+        m_control.check(i);
         m_directions[i] = m_points[i] - m_sensor.vector;
         m_ranges[i] = m_directions[i].norm();
         if (m_ranges[i] > 0) m_directions[i] /= m_ranges[i];
@@ -93,6 +99,7 @@ private:
     const Vector u = axis.unitOrthogonal(), v = u.cross(axis);
     m_projections.resize(m_points.size());
     for (std::size_t i = 0; i < m_points.size(); ++i) {
+      m_control.check(i);
       const Vector p = is_perspective() ? m_directions[i] : Vector(m_points[i] - origin);
       const double scale = is_perspective() ? 1 + p.dot(axis) : 1;
       m_projections[i] = Point_2(p.dot(u) / scale, p.dot(v) / scale);
@@ -114,11 +121,18 @@ private:
     order.reserve(m_points.size());
     for (std::size_t i = 0; i < m_points.size(); ++i)
       if (has_projection(i)) order.push_back(i);
-    const auto projection = CGAL::make_property_map(m_projections);
+    // (Sorting asks for the projections: it can be stopped there.)
+    std::size_t steps = 0;
+    const auto projection =
+        boost::make_function_property_map<std::size_t, const Point_2&>([&](std::size_t i) -> const Point_2& {
+          m_control.check(++steps);
+          return m_projections[i];
+        });
     CGAL::spatial_sort(order.begin(), order.end(),
                        CGAL::Spatial_sort_traits_adapter_2<Kernel, decltype(projection)>(projection));
     Delaunay::Face_handle hint;
     for (std::size_t i : order) {
+      m_control.check();
       const std::size_t before = m_delaunay.number_of_vertices();
       const Delaunay::Vertex_handle v = m_delaunay.insert(m_projections[i], hint);
       hint = v->face();
@@ -135,6 +149,7 @@ private:
   {
     std::vector<double> lengths;
     for (auto e = m_delaunay.finite_edges_begin(); e != m_delaunay.finite_edges_end(); ++e) {
+      m_control.check(lengths.size());
       const auto v = e->first->vertex(Delaunay::ccw(e->second)), w = e->first->vertex(Delaunay::cw(e->second));
       const std::size_t i = static_cast<std::size_t>(v->info()), j = static_cast<std::size_t>(w->info());
       lengths.push_back(is_perspective() ? (m_directions[i] - m_directions[j]).norm()
@@ -161,19 +176,22 @@ private:
 
   void make_mesh(Flat_mesh& mesh) const
   {
+    std::size_t steps = 0;
     for (auto f = m_delaunay.finite_faces_begin(); f != m_delaunay.finite_faces_end(); ++f) {
+      m_control.check(++steps);
       const std::array<std::int32_t, 3> face = {f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
       bool keep = true;
       for (std::size_t k = 0; k < 3; ++k)
         keep = keep && is_short(static_cast<std::size_t>(face[k]), static_cast<std::size_t>(face[(k + 1) % 3]));
       if (keep) mesh.faces.push_back(face);
     }
-    keep_used_points(mesh, m_points);
+    keep_used_points(mesh, m_points, m_control);
   }
 
   const std::vector<Vector>& m_points;
   const Flat_sensor& m_sensor;
   const double m_ratio;
+  Run_control& m_control;
   std::vector<double> m_ranges;     // perspective only
   std::vector<Vector> m_directions; // perspective only: unit, from the viewpoint
   std::vector<Point_2> m_projections;

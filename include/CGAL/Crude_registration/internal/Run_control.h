@@ -75,7 +75,10 @@ public:
   }
 
   // By the thread that made the control.
-  void advance(double progress) { m_progress = progress; }
+  void advance(double progress)
+  {
+    if (m_is_watched) m_progress = progress;
+  }
 
 private:
   std::function<bool(double)> m_go_further;
@@ -85,6 +88,13 @@ private:
   double m_progress = 0;
   std::atomic<bool> m_is_stopped{false};
 };
+
+// The control of all that is not to be ended: nothing in it ever changes.
+inline Run_control& to_the_end()
+{
+  static Run_control control;
+  return control;
+}
 
 template <class Visitor>
 Visitor& unwrapped(Visitor& visitor)

@@ -11,6 +11,7 @@
 #include <CGAL/Crude_registration/internal/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/advancing_front.h>
+#include <CGAL/Crude_registration/internal/cell_items.h>
 #include <CGAL/Crude_registration/internal/flat_mesh_repair.h>
 #include <CGAL/Crude_registration/internal/likely_viewpoint.h>
 #include <CGAL/Crude_registration/internal/symmetric_eigen.h>
@@ -55,13 +56,14 @@ public:
     const std::vector<Vector> points = thin();
     m_control.check();
     advance_front(points, mesh);
-    keep_used_points(mesh, points);
-    split_non_manifold_vertices(mesh);
+    keep_used_points(mesh, points, m_control);
+    split_non_manifold_vertices(mesh, m_control);
     orient_outwards(mesh);
+    m_control.check();
     Vector viewpoint;
     if (Likely_viewpoint(mesh, m_spacing, m_axes, m_control).find(viewpoint)) {
       turn_to(viewpoint, mesh);
-      split_non_manifold_vertices(mesh);
+      split_non_manifold_vertices(mesh, m_control);
     }
     return mesh;
   }
@@ -77,6 +79,7 @@ private:
     Vector sum = Vector::Zero();
     for (const Vector& p : m_points) sum += p - m_points.front();
     m_centroid = m_points.front() + sum / static_cast<double>(m_points.size());
+    m_control.check();
     Matrix covariance = Matrix::Zero();
     for (const Vector& p : m_points) covariance += (p - m_centroid) * (p - m_centroid).transpose();
     const Symmetric_eigen<Matrix> eigen = symmetric_eigen(covariance);
@@ -85,6 +88,7 @@ private:
     m_local.reserve(m_points.size());
     Vector third = Vector::Zero();
     for (const Vector& p : m_points) {
+      m_control.check(m_local.size());
       m_local.push_back(m_axes.transpose() * (p - m_centroid));
       third += m_local.back().cwiseProduct(m_local.back()).cwiseProduct(m_local.back());
       m_extent = std::max(m_extent, 2 * m_local.back().cwiseAbs().maxCoeff());
@@ -97,19 +101,23 @@ private:
       }
   }
 
-  // sorted numbers of the cells of the points
-  std::vector<std::uint64_t> cells(double size) const
+  // the points by their cells
+  std::vector<Cell_item> cells(double size) const
   {
-    std::vector<std::uint64_t> result;
+    std::vector<Cell_item> result;
     result.reserve(m_local.size());
     for (const Vector& p : m_local) {
+      m_control.check(result.size());
       std::uint64_t key = 0;
       for (int i = 0; i < 3; ++i)
         key = key << 21 | static_cast<std::uint64_t>(std::floor(p[i] / size) + double(1 << 20));
-      result.push_back(key);
+      result.push_back({key, static_cast<std::uint32_t>(result.size())});
     }
+    sort_cell_items(result, m_control);
     return result;
   }
+
+  static bool is_same_cell(const Cell_item& a, const Cell_item& b) { return a.key == b.key; }
 
   // the size of cells of which about `count` hold points: on a surface their number falls with the square of the size
   double cell_size(std::size_t count) const
@@ -118,10 +126,8 @@ private:
     const double smallest = m_extent / double(1 << 20); // 21 bits an axis
     double size = std::max(smallest, m_extent / std::sqrt(wanted));
     for (int i = 0; i < 8; ++i) {
-      m_control.check();
-      std::vector<std::uint64_t> keys = cells(size);
-      std::sort(keys.begin(), keys.end());
-      const double got = static_cast<double>(std::unique(keys.begin(), keys.end()) - keys.begin());
+      std::vector<Cell_item> items = cells(size);
+      const double got = static_cast<double>(std::unique(items.begin(), items.end(), is_same_cell) - items.begin());
       if (std::abs(got - wanted) < 0.05 * wanted) break;
       size = std::max(smallest, size * std::sqrt(got / wanted));
     }
@@ -137,18 +143,16 @@ private:
       return m_points;
     }
     m_spacing = cell_size(largest);
-    const std::vector<std::uint64_t> keys = cells(m_spacing);
-    std::vector<std::size_t> order(n);
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t i, std::size_t j) { return keys[i] != keys[j] ? keys[i] < keys[j] : i < j; });
+    const std::vector<Cell_item> items = cells(m_spacing);
     std::vector<Vector> means;
     for (std::size_t i = 0; i < n;) {
-      const std::size_t first = order[i];
+      m_control.check(means.size());
+      const Cell_item& first = items[i];
       Vector sum = Vector::Zero();
       std::size_t count = 0;
-      for (; i < n && keys[order[i]] == keys[first]; ++i, ++count) sum += m_points[order[i]] - m_points[first];
-      means.push_back(m_points[first] + sum / static_cast<double>(count));
+      for (; i < n && is_same_cell(items[i], first); ++i, ++count)
+        sum += m_points[items[i].index] - m_points[first.index];
+      means.push_back(m_points[first.index] + sum / static_cast<double>(count));
     }
     return means;
   }

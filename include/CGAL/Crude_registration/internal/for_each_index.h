@@ -37,8 +37,7 @@ void for_each_index(std::size_t n, Run_control& control, const Function& f)
 template <class ConcurrencyTag, class Function>
 void for_each_index(std::size_t n, const Function& f)
 {
-  Run_control to_the_end;
-  for_each_index<ConcurrencyTag>(n, to_the_end, f);
+  for_each_index<ConcurrencyTag>(n, to_the_end(), f);
 }
 
 } // namespace internal

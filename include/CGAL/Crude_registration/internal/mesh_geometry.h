@@ -41,12 +41,15 @@ inline Vector area_vector(const Flat_mesh& mesh, const std::array<std::int32_t, 
                      mesh.points[std::size_t(face[2])]);
 }
 
-// The area of each face.
-inline std::vector<double> face_areas(const Flat_mesh& mesh)
+// The area of each face. \throws Run_control::Stopped
+inline std::vector<double> face_areas(const Flat_mesh& mesh, Run_control& control = to_the_end())
 {
   std::vector<double> areas;
   areas.reserve(mesh.faces.size());
-  for (const auto& f : mesh.faces) areas.push_back(0.5 * area_vector(mesh, f).norm());
+  for (const auto& f : mesh.faces) {
+    control.check(areas.size());
+    areas.push_back(0.5 * area_vector(mesh, f).norm());
+  }
   return areas;
 }
 
@@ -62,10 +65,13 @@ inline Vector unit_or_zero(const Vector& v)
 // Unit normals of the vertices; zero where no face of positive area is incident. The faces' normals are weighted by
 // sin(angle) / (product of the two edge lengths), which is exact on a sphere however it is triangulated (Max, "Weights
 // for computing vertex normals from facet normals", 1999), and is what Rusinkiewicz's curvatures build on.
-inline std::vector<Vector> vertex_normals(const Flat_mesh& mesh)
+// \throws Run_control::Stopped
+inline std::vector<Vector> vertex_normals(const Flat_mesh& mesh, Run_control& control = to_the_end())
 {
   std::vector<Vector> normals(mesh.points.size(), Vector::Zero());
+  std::size_t steps = 0;
   for (const auto& f : mesh.faces) {
+    control.check(++steps);
     const auto a = std::size_t(f[0]), b = std::size_t(f[1]), c = std::size_t(f[2]);
     const Vector ab = mesh.points[b] - mesh.points[a], ac = mesh.points[c] - mesh.points[a],
                  bc = mesh.points[c] - mesh.points[b];
@@ -78,7 +84,10 @@ inline std::vector<Vector> vertex_normals(const Flat_mesh& mesh)
     normals[b] += by_bc2 * (by_ab2 * n);
     normals[c] += by_bc2 * (by_ac2 * n);
   }
-  for (Vector& n : normals) n = unit_or_zero(n);
+  for (Vector& n : normals) {
+    control.check(++steps);
+    n = unit_or_zero(n);
+  }
   return normals;
 }
 
@@ -193,7 +202,7 @@ inline void check_size(const std::vector<Vector>& points, const std::string& fun
 // or faces; Run_control::Stopped.
 template <class Face_graph, class NP>
 Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string& function, const std::string& argument,
-                       Run_control& control)
+                       Run_control& control = to_the_end())
 {
   const auto point_map = const_vertex_point_map(graph, np);
   const auto index_map = CGAL::get_initialized_vertex_index_map(graph);
@@ -229,13 +238,6 @@ Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string&
                           flat_index[std::size_t(get(index_map, target(h2, graph)))]});
   }
   return mesh;
-}
-
-template <class Face_graph, class NP>
-Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string& function, const std::string& argument)
-{
-  Run_control to_the_end;
-  return to_flat_mesh(graph, np, function, argument, to_the_end);
 }
 
 } // namespace internal

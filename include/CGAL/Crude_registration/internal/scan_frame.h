@@ -9,6 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SCAN_FRAME_H
 
 #include <CGAL/Crude_registration/internal/Curvature_tensors.h>
+#include <CGAL/Crude_registration/internal/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/symmetric_eigen.h>
 
@@ -54,8 +55,9 @@ inline Rigid_motion frame_of_axes(const Vector& x, const Vector& z, const Vector
 // tenth) along the axis of least variance. x is the direction of largest variance in the image plane perpendicular to
 // z. Signs that the normals do not fix are such that the third moment is positive. All moments are integrals over the
 // surface. On a surface of revolution seen along its axis, x has no meaning, on a symmetric one its sign has none.
-// `areas`: of the faces.
-inline Rigid_motion scan_frame(const Flat_mesh& mesh, const std::vector<double>& areas, const Vector& viewing_direction)
+// `areas`: of the faces. \throws Run_control::Stopped
+inline Rigid_motion scan_frame(const Flat_mesh& mesh, const std::vector<double>& areas, const Vector& viewing_direction,
+                               Run_control& control = to_the_end())
 {
   const Vector centre = centre_of_box(mesh.points);
   double area = 0;
@@ -65,6 +67,7 @@ inline Rigid_motion scan_frame(const Flat_mesh& mesh, const std::vector<double>&
     return mesh.points[std::size_t(mesh.faces[face][k])] - centre;
   };
   for (std::size_t i = 0; i < areas.size(); ++i) {
+    control.check(i);
     const Vector a = corner(i, 0), b = corner(i, 1), c = corner(i, 2), sum = a + b + c;
     area += areas[i];
     normal += 0.5 * area_vector(a, b, c);
@@ -79,6 +82,7 @@ inline Rigid_motion scan_frame(const Flat_mesh& mesh, const std::vector<double>&
   const auto skewness = [&](const Vector& axis) {
     double moment = 0;
     for (std::size_t i = 0; i < areas.size(); ++i) {
+      control.check(i);
       const double t = axis.dot((corner(i, 0) + corner(i, 1) + corner(i, 2)) / 3 - centroid);
       moment += areas[i] * t * t * t;
     }
@@ -111,13 +115,15 @@ inline Rigid_motion scan_frame(const Flat_mesh& mesh, const Vector& viewing_dire
 }
 
 // The edge lengths, along the axes of `frame`, of the box that contains the vertices of the faces.
-inline Vector extent_in_frame(const Flat_mesh& mesh, const Rigid_motion& frame)
+// \throws Run_control::Stopped
+inline Vector extent_in_frame(const Flat_mesh& mesh, const Rigid_motion& frame, Run_control& control = to_the_end())
 {
   std::vector<std::uint8_t> has_face(mesh.points.size(), 0);
   for (const auto& f : mesh.faces)
     for (std::int32_t v : f) has_face[std::size_t(v)] = 1;
   Vector low = Vector::Constant((std::numeric_limits<double>::max)()), high = -low;
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    control.check(i);
     if (!has_face[i]) continue;
     const Vector p = frame(mesh.points[i]);
     low = low.cwiseMin(p);
