@@ -9,7 +9,7 @@ source tools/prepare.sh
 
 case "${1:-}" in -h | --help) sed -n '2,5s/^# \{0,1\}//p' "$0"; exit 0 ;; esac
 
-install_missing_packages
+install_missing_packages tools/debian_packages_tests.txt
 configure
 build_targets
 say "Testing"

@@ -1,5 +1,5 @@
 # Checks that read the sources: headers that compile alone (tests), formatting (test and target check_format),
-# clang-tidy (target check_tidy). Each is there where its tool is.
+# clang-tidy (the headers: test check_tidy_headers; all programs: target check_tidy). Each is there where its tool is.
 
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/*.h)
 file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.cpp
@@ -20,40 +20,45 @@ target_link_libraries(headers_alone_flags PRIVATE CGAL::CGAL CGAL::Eigen3_suppor
   $<TARGET_NAME_IF_EXISTS:CGAL::TBB_support>)
 set(includes "$<FILTER:$<TARGET_PROPERTY:headers_alone_flags,INCLUDE_DIRECTORIES>,EXCLUDE,^/usr/include(/[^/]*-linux-[^/]*)?$>")
 set(definitions "$<TARGET_PROPERTY:headers_alone_flags,COMPILE_DEFINITIONS>")
+set(clang_flags -std=c++17 -frounding-math -I${PROJECT_SOURCE_DIR}/include
+  "$<$<BOOL:${includes}>:-isystem$<JOIN:${includes},;-isystem>>"
+  "$<$<BOOL:${definitions}>:-D$<JOIN:${definitions},;-D>>")
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/headers/compile_flags.txt CONTENT "$<JOIN:${clang_flags},\n>\n")
 # check_source(STAMPS NAME SOURCE COMMENT): compiled, but for the code; adds a file that says so to the list STAMPS.
 function(check_source stamps name source comment)
   set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.stamp)
   add_custom_command(OUTPUT ${stamp}
-    COMMAND ${header_compiler} -std=c++17 -fsyntax-only -frounding-math -Wall -Wextra -Wpedantic -Wconversion -Wshadow
-            -Werror -I${PROJECT_SOURCE_DIR}/include
-            "$<$<BOOL:${includes}>:-isystem$<JOIN:${includes},;-isystem>>"
-            "$<$<BOOL:${definitions}>:-D$<JOIN:${definitions},;-D>>"
+    COMMAND ${header_compiler} ${clang_flags} -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
             -MMD -MT ${stamp} -MF ${stamp}.d ${source}
     COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
     DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${comment}")
   set(${stamps} ${${stamps}} ${stamp} PARENT_SCOPE)
 endfunction()
 set(header_stamps "")
+set(all_headers "")
 foreach(header IN LISTS headers)
+  string(APPEND all_headers "#include <${header}>\n")
   string(MAKE_C_IDENTIFIER ${header} name)
   set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
   check_source(header_stamps ${name} ${source} "${header} alone")
 endforeach()
 add_custom_target(headers_alone DEPENDS ${header_stamps})
-# The benchmarks, which few builds build.
-set(benchmark_stamps "")
+# The benchmarks, which few builds build, and the command line program, which g++ compiles.
+set(program_stamps "")
+check_source(program_stamps crude_register ${PROJECT_SOURCE_DIR}/examples/Crude_registration/crude_register.cpp
+  "crude_register")
 if(TARGET benchmarks)
   get_target_property(names benchmarks MANUALLY_ADDED_DEPENDENCIES)
   foreach(name IN LISTS names)
     get_target_property(is_left_out ${name} EXCLUDE_FROM_ALL)
     if(is_left_out)
-      check_source(benchmark_stamps benchmark_${name} ${PROJECT_SOURCE_DIR}/benchmark/Crude_registration/${name}.cpp
+      check_source(program_stamps benchmark_${name} ${PROJECT_SOURCE_DIR}/benchmark/Crude_registration/${name}.cpp
         "benchmark ${name}")
     endif()
   endforeach()
 endif()
-add_custom_target(benchmarks_compile DEPENDS ${benchmark_stamps})
+add_custom_target(programs_compile DEPENDS ${program_stamps})
 if(CRUDE_REGISTRATION_WITH_TESTS)
   include(ProcessorCount)
   ProcessorCount(processors)
@@ -61,7 +66,7 @@ if(CRUDE_REGISTRATION_WITH_TESTS)
   if(CMAKE_GENERATOR MATCHES "Ninja")
     set(keep_going -- -k 0)
   endif()
-  foreach(check headers_alone benchmarks_compile)
+  foreach(check headers_alone programs_compile)
     add_test(NAME ${check}
       COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target ${check} --parallel ${processors} ${keep_going})
     set_tests_properties(${check} PROPERTIES RUN_SERIAL ON TIMEOUT 900)
@@ -82,11 +87,20 @@ if(CRUDE_REGISTRATION_CLANG_FORMAT)
   endif()
 endif()
 
-# clang-tidy with the checks of .clang-tidy, a program at a time; its findings in headers are in the programs that
-# include them.
+# clang-tidy with the checks of .clang-tidy: all headers in one file, and the programs, one at a time, which show it the
+# templates with their arguments.
 find_program(CRUDE_REGISTRATION_CLANG_TIDY NAMES clang-tidy-14 clang-tidy)
 mark_as_advanced(CRUDE_REGISTRATION_CLANG_TIDY)
 if(CRUDE_REGISTRATION_CLANG_TIDY)
+  # (with the flags in headers/compile_flags.txt)
+  set(tidy ${CRUDE_REGISTRATION_CLANG_TIDY} --quiet --warnings-as-errors=* --config-file=${PROJECT_SOURCE_DIR}/.clang-tidy
+      -p ${PROJECT_BINARY_DIR}/headers)
+  set(all_headers_source ${PROJECT_BINARY_DIR}/headers/all_headers.cpp)
+  file(CONFIGURE OUTPUT ${all_headers_source} CONTENT "${all_headers}")
+  if(CRUDE_REGISTRATION_WITH_TESTS)
+    add_test(NAME check_tidy_headers COMMAND ${tidy} ${all_headers_source})
+    set_tests_properties(check_tidy_headers PROPERTIES TIMEOUT 900 COST 1000)
+  endif()
   set(stamps "")
   foreach(program IN LISTS programs)
     file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${program})
@@ -96,10 +110,10 @@ if(CRUDE_REGISTRATION_CLANG_TIDY)
     string(MAKE_C_IDENTIFIER ${name} stamp)
     set(stamp ${PROJECT_BINARY_DIR}/tidy/${stamp})
     add_custom_command(OUTPUT ${stamp}
-      COMMAND ${CRUDE_REGISTRATION_CLANG_TIDY} --quiet --warnings-as-errors=*
-              --extra-arg=-Wno-unknown-warning-option -p ${PROJECT_BINARY_DIR} ${program}
+      COMMAND ${tidy} ${program}
       COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
-      DEPENDS ${program} ${absolute_headers} ${PROJECT_SOURCE_DIR}/.clang-tidy VERBATIM COMMENT "clang-tidy ${name}")
+      DEPENDS ${program} ${absolute_headers} ${PROJECT_SOURCE_DIR}/.clang-tidy VERBATIM
+      COMMENT "clang-tidy ${name}")
     list(APPEND stamps ${stamp})
   endforeach()
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/tidy)

@@ -3,9 +3,13 @@
 
 say() { printf '\n== %s\n' "$*"; }
 
-install_missing_packages() {
-  local wanted missing=()
-  wanted=$(grep -v '^#' tools/debian_packages.txt | tr '\n' ' ')
+packages_in() { grep -v '^#' "$1" | tr '\n' ' '; }
+
+is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+install_missing_packages() { # [FILE]: of packages that are wanted, too, where there are such
+  local wanted missing=() wished=()
+  wanted=$(packages_in tools/debian_packages.txt)
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     say "No apt-get on this system: nothing is installed"
     cat <<TXT
@@ -20,20 +24,29 @@ TXT
     return
   fi
   for package in $wanted; do
-    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+    is_installed "$package" || missing+=("$package")
   done
-  [ ${#missing[@]} -gt 0 ] || return 0
+  [ $# -eq 0 ] || for package in $(packages_in "$1"); do
+    is_installed "$package" || wished+=("$package")
+  done
+  [ $((${#missing[@]} + ${#wished[@]})) -gt 0 ] || return 0
 
-  say "Installing ${missing[*]}"
   local as_root=""
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
+      [ ${#missing[@]} -gt 0 ] || { echo "Not installed, so that some checks are left out: ${wished[*]}"; return 0; }
       echo "This needs root, and there is no sudo. As root: apt-get install ${missing[*]}" >&2
       exit 1
     fi
     as_root=sudo
   fi
   $as_root apt-get update -q
+  for package in ${wished[@]+"${wished[@]}"}; do
+    if apt-cache show "$package" >/dev/null 2>&1; then missing+=("$package")
+    else echo "There is no package $package here: the checks that need it are left out"; fi
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  say "Installing ${missing[*]}"
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
 }
 

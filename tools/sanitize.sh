@@ -14,7 +14,8 @@ compiler=$(command -v clang++-14 || command -v clang++ || command -v c++)
 launcher=$(command -v ccache || true)
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
   ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON} \
-  -DCRUDE_REGISTRATION_SANITIZE="$kind" -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF
+  -DCRUDE_REGISTRATION_SANITIZE="$kind" -DCRUDE_REGISTRATION_TEST_TIMEOUT=1500 \
+  -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF
 . tools/test_programs.sh
 cd "$build"
 build_test_programs "$@"

@@ -346,7 +346,7 @@ int run_register(const std::vector<std::string>& arguments)
   });
   for (const Side& side : sides)
     if (side.failure) std::rethrow_exception(side.failure);
-  const auto& [source, target] = sides;
+  const Side &source = sides[0], &target = sides[1];
 
   const auto start = std::chrono::steady_clock::now();
   const auto answer = [&] {

@@ -12,11 +12,9 @@
 #include "mesh_of.h"
 
 #include <CGAL/Crude_registration/internal/Quadric_simplification.h>
+#include <CGAL/Crude_registration/internal/Triangle_tree.h>
 #include <CGAL/Crude_registration/simplify_scan.h>
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -92,22 +90,14 @@ std::size_t number_of_bad_edges(const Flat_mesh& mesh)
 // Root mean square and largest distance of points from a mesh.
 std::pair<double, double> distance(const std::vector<Vector>& points, const Flat_mesh& flat)
 {
-  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-  // A soup of triangles: what is not manifold does not matter to a distance.
-  Mesh mesh;
-  for (const auto& f : flat.faces) {
-    std::array<Mesh::Vertex_index, 3> v;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector& p = flat.points[std::size_t(f[k])];
-      v[k] = mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z()));
-    }
-    mesh.add_face(v[0], v[1], v[2]);
-  }
-  Tree tree(faces(mesh).begin(), faces(mesh).end(), mesh);
+  const auto point = [](const Vector& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
+  const auto corner = [&](std::int32_t v) { return point(flat.points[std::size_t(v)]); };
+  Triangle_tree<Kernel>::Triangles triangles;
+  for (const auto& f : flat.faces) triangles.emplace_back(corner(f[0]), corner(f[1]), corner(f[2]));
+  const Triangle_tree<Kernel>::type tree(triangles.cbegin(), triangles.cend());
   double sum = 0, largest = 0;
   for (const Vector& p : points) {
-    const double d2 = tree.squared_distance(Kernel::Point_3(p.x(), p.y(), p.z()));
+    const double d2 = tree.squared_distance(point(p));
     sum += d2;
     largest = std::max(largest, d2);
   }

@@ -257,8 +257,8 @@ public:
     const double least_cosine = uncertainty < CGAL_PI ? std::cos(uncertainty) : -2;
     const double steps = std::ceil(uncertainty * (radius + tolerance) / tolerance);
     work.turns.clear();
-    for (double i = 0; i < steps; ++i) {
-      const double turn = uncertainty * ((2 * i + 1) / steps - 1);
+    for (std::size_t i = 0; double(i) < steps; ++i) {
+      const double turn = uncertainty * ((2 * double(i) + 1) / steps - 1);
       work.turns.push_back({std::cos(turn), std::sin(turn)});
     }
 
