@@ -224,6 +224,45 @@ BOOST_AUTO_TEST_CASE(every_encoding_and_type_gives_the_same_image)
   }
 }
 
+// Three samples with coordinates at the ends of an integer type, and a grid of that type's indices.
+template <class Integer>
+void check_integers(const std::string& type)
+{
+  using Limits = std::numeric_limits<Integer>;
+  const std::array<std::array<Integer, 3>, 3> samples = {
+      {{{Limits::lowest(), 0, 1}}, {{Limits::max(), 2, 3}}, {{4, Limits::max() / 2, 5}}}};
+  for (Encoding encoding : {ASCII, LITTLE, BIG}) {
+    Writer w(encoding);
+    w.line("ply\nformat " + format_names[std::size_t(encoding)] + " 1.0\nobj_info num_cols 2\nobj_info num_rows 2");
+    w.line("element vertex 3\nproperty " + type + " x\nproperty " + type + " y\nproperty " + type + " z");
+    w.line("element range_grid 4\nproperty list " + type + " " + type + " vertex_indices\nend_header");
+    for (const auto& sample : samples) {
+      for (const Integer coordinate : sample) w.put(coordinate);
+      w.end_element();
+    }
+    for (int i = 2; i >= -1; --i) {
+      w.put(Integer(i < 0 ? 0 : 1));
+      if (i >= 0) w.put(Integer(i));
+      w.end_element();
+    }
+    const Image image = read(w.text());
+    BOOST_TEST((image.grid() == std::vector<Image::Index>{2, 1, 0, -1}), type);
+    BOOST_TEST_REQUIRE(image.points().size() == 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(image.points()[i][int(k)] == double(samples[i][k]), type);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(integers_of_every_type)
+{
+  check_integers<std::int8_t>("char");
+  check_integers<std::uint8_t>("uint8");
+  check_integers<std::int16_t>("int16");
+  check_integers<std::uint16_t>("ushort");
+  check_integers<std::int32_t>("int");
+  check_integers<std::uint32_t>("uint32");
+}
+
 BOOST_AUTO_TEST_CASE(the_grid_is_read_row_by_row)
 {
   const Image image = read(header + body);

@@ -5,6 +5,7 @@
 #include "registration_checks.h"
 #include "wrong_use.h"
 
+#include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/make_statue.h>
 #include <CGAL/Crude_registration/simulate_range_image.h>
 #include <CGAL/Crude_registration/triangulate_points.h>
@@ -395,6 +396,13 @@ BOOST_AUTO_TEST_CASE(range_image_mesh_and_points_of_one_scan)
   check_right(CR::register_meshes(a, b), source, target);
   check_right(CR::register_meshes(a, b, p::viewing_direction(Kernel::Vector_3(0, 0, -1)), p::viewpoint(origin)), source,
               target);
+  // As read from files.
+  CR::Scan_file<Kernel> mesh_file, image_file;
+  mesh_file.kind = CR::Scan_file<Kernel>::MESH;
+  mesh_file.mesh = a;
+  image_file.kind = CR::Scan_file<Kernel>::RANGE_IMAGE;
+  image_file.image = target.image;
+  check_same_bits(CR::register_scans(Scan(mesh_file), Scan(image_file)), CR::register_scans(Scan(a), target.scan));
   const Scan points(source.image.points(), p::viewpoint(origin));
   BOOST_TEST(points.has_free_space());
   check_right(CR::register_scans(points, target.scan), source, target);
