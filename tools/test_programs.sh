@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# Sourced by tools/sanitize.sh, coverage.sh and cgal_6.sh, in the root of the project: for tests that are run by a tool, in
-# the folder of their build.
+# Sourced by tools/assertions.sh, cgal_6.sh, coverage.sh and sanitize.sh, in the root of the project: for tests that are run
+# by a tool, in the folder of their build.
 
 root=$PWD
 # The checks of the sources, of the manual and of other projects have no program that a tool could look into.

@@ -12,20 +12,23 @@
 #include <CGAL/Crude_registration/register_scans.h>
 #include <CGAL/Crude_registration/triangulate_range_image.h>
 
+#include <boost/program_options.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace CR = CGAL::Crude_registration;
 namespace p = CGAL::Crude_registration::parameters;
+namespace po = boost::program_options;
 using benchmark_tools::Generated_scene;
 using Kernel = Generated_scene::Kernel;
 using Mesh = Generated_scene::Mesh;
@@ -39,7 +42,7 @@ double seconds_between(Clock::time_point a, Clock::time_point b)
   return std::chrono::duration<double>(b - a).count();
 }
 
-// The visitor of a run from its beginning to its end. The time that is asked for between looks is the visitor's own.
+// The visitor of a run, from its beginning to its end.
 class Stop_watch
 {
 public:
@@ -103,18 +106,27 @@ void measure_size(const Generated_scene& scene, std::size_t size)
 int main(int argc, char* argv[])
 {
   try {
-    std::vector<std::size_t> sizes;
-    for (int i = 1; i < argc; ++i) sizes.push_back(std::stoul(argv[i]));
-    if (sizes.empty()) sizes = {100000, 1000000, 5000000};
+    std::vector<std::size_t> sizes = {100000, 1000000, 5000000};
+    po::options_description description("Usage: interruption [OPTION...]\n\n"
+                                        "How long a run goes on after its end was asked for: the longest time between\n"
+                                        "two looks at its visitor, in generated scans.\n\n"
+                                        "Options");
+    description.add_options()("help,h", "print this");
+    description.add_options()("samples", po::value(&sizes)->multitoken(), "numbers of samples; default: up to 5000000");
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(description).run(), values);
+    if (values.count("help") != 0) {
+      std::cout << description;
+      return EXIT_SUCCESS;
+    }
+    po::notify(values);
     std::cout << "seconds (of the clock): of the whole run, and the longest between two looks at the visitor\n"
               << "what                                samples     whole   longest\n";
     const Generated_scene scene(200);
     for (const std::size_t size : sizes) measure_size(scene, size);
-  } catch (const std::invalid_argument&) {
-    std::cerr << "interruption [SAMPLES...]: how long a run goes on after its end was asked for\n";
-    return 1;
+    return EXIT_SUCCESS;
   } catch (const std::exception& e) {
     std::cerr << "interruption: " << e.what() << '\n';
-    return 1;
+    return EXIT_FAILURE;
   }
 }
