@@ -351,8 +351,11 @@ BOOST_AUTO_TEST_CASE(wrong_arguments_are_refused)
     Mesh mesh;
     return is_refused([&] { CR::triangulate_points(range, mesh, np); }, "triangulate_points: " + text);
   };
-  BOOST_TEST(refuses({Point(0, 0, 0), Point(0, no_depth, 0)}, parameters::default_values(), "points: point 1"));
-  BOOST_TEST(refuses({Point(-infinity, 0, 0)}, parameters::viewing_direction(down), "points: point 0"));
+  BOOST_TEST(refuses({Point(0, 0, 0), Point(0, no_depth, 0)}, parameters::default_values(), "point 1 of points"));
+  BOOST_TEST(refuses({Point(-infinity, 0, 0)}, parameters::viewing_direction(down), "point 0 of points"));
+  for (double size : {1e-200, 1e200})
+    BOOST_TEST(
+        refuses({Point(0, 0, 0), Point(size, 0, 0), Point(0, size, size)}, parameters::default_values(), "points has"));
   BOOST_TEST(refuses(points, parameters::viewpoint(Point(0, infinity, 0)), "viewpoint"));
   BOOST_TEST(refuses(points, parameters::viewing_direction(Kernel::Vector_3(0, 0, 0)), "viewing_direction"));
   BOOST_TEST(refuses(points, parameters::viewing_direction(Kernel::Vector_3(0, no_depth, 0)), "viewing_direction"));

@@ -201,7 +201,7 @@ private:
                       internal::Run_control& control)
   {
     const std::vector<internal::Vector> flat =
-        internal::finite_points(points, CGAL::Identity_property_map<Point_3>(), name, control);
+        internal::to_flat_points(points, CGAL::Identity_property_map<Point_3>(), name, "it", control);
     const internal::Flat_sensor sensor = given_sensor(np, name);
     prepare(internal::flat_triangulation(flat, sensor, maximum_edge_ratio, control), sensor, name, control);
   }

@@ -33,22 +33,23 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// `where` names the function and its argument in the text of what is thrown: std::invalid_argument for a coordinate
-// that is not finite, or more than 2^31 - 1 points; Run_control::Stopped.
+// `function` and `argument` name the caller and its argument in the text of what is thrown: std::invalid_argument for a
+// coordinate that is not finite, a size that cannot be computed with, more than 2^31 - 1 points; Run_control::Stopped.
 template <class PointRange, class PointMap>
-std::vector<Vector> finite_points(const PointRange& points, const PointMap& point_map, const std::string& where,
-                                  Run_control& control = to_the_end())
+std::vector<Vector> to_flat_points(const PointRange& points, const PointMap& point_map, const std::string& function,
+                                   const std::string& argument, Run_control& control = to_the_end())
 {
   std::vector<Vector> result;
   for (const auto& element : points) {
     control.check(result.size());
     result.push_back(to_vector(get(point_map, element)));
     if (!result.back().allFinite())
-      throw std::invalid_argument(where + ": point " + std::to_string(result.size() - 1) +
+      throw std::invalid_argument(function + ": point " + std::to_string(result.size() - 1) + " of " + argument +
                                   " has a coordinate that is not finite");
     if (result.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-      throw std::invalid_argument(where + ": there are more than 2^31 - 1 points");
+      throw std::invalid_argument(function + ": " + argument + " has more than 2^31 - 1 points");
   }
+  check_size(result, function, argument);
   return result;
 }
 
@@ -140,8 +141,8 @@ edge, a vertex is repeated, at the end: the result is a manifold. Points in no t
 \cgalNamedParamsEnd
 
 \throws std::invalid_argument if a coordinate of `points`, `viewpoint` or `viewing_direction` is not finite,
-`viewing_direction` is null, `maximum_edge_ratio` is not a finite number above zero, or there are more than 2^31 - 1
-points.
+`viewing_direction` is null, `maximum_edge_ratio` is not a finite number above zero, there are more than 2^31 - 1
+points, or their coordinates are above 1e75 or their size is below 1e-75, but not zero.
 */
 template <class PointRange, class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
 void triangulate_points(const PointRange& points, FaceGraph& mesh,
@@ -152,7 +153,8 @@ void triangulate_points(const PointRange& points, FaceGraph& mesh,
       internal::positive_parameter(np, internal_np::maximum_edge_ratio, 5, "triangulate_points", "maximum_edge_ratio");
   const internal::Flat_sensor sensor = internal::sensor_parameter(np, "triangulate_points");
   const auto point_map = internal::parameter(np, internal_np::point_map, CGAL::Identity_property_map<Element>());
-  const std::vector<internal::Vector> flat = internal::finite_points(points, point_map, "triangulate_points: points");
+  const std::vector<internal::Vector> flat =
+      internal::to_flat_points(points, point_map, "triangulate_points", "points");
   internal::add_flat_mesh(internal::flat_triangulation(flat, sensor, ratio), mesh, np);
 }
 
