@@ -20,15 +20,15 @@ target_link_libraries(headers_alone_flags PRIVATE CGAL::CGAL CGAL::Eigen3_suppor
   $<TARGET_NAME_IF_EXISTS:CGAL::TBB_support>)
 set(includes "$<FILTER:$<TARGET_PROPERTY:headers_alone_flags,INCLUDE_DIRECTORIES>,EXCLUDE,^/usr/include(/[^/]*-linux-[^/]*)?$>")
 set(definitions "$<TARGET_PROPERTY:headers_alone_flags,COMPILE_DEFINITIONS>")
-set(clang_flags -std=c++17 -frounding-math -I${PROJECT_SOURCE_DIR}/include
-  "$<$<BOOL:${includes}>:-isystem$<JOIN:${includes},;-isystem>>"
-  "$<$<BOOL:${definitions}>:-D$<JOIN:${definitions},;-D>>")
-file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/headers/compile_flags.txt CONTENT "$<JOIN:${clang_flags},\n>\n")
+set(compile_flags ${PROJECT_BINARY_DIR}/headers/compile_flags.txt) # where clang-tidy looks for them
+file(GENERATE OUTPUT ${compile_flags} CONTENT "-std=c++17\n-frounding-math\n-I${PROJECT_SOURCE_DIR}/include
+$<$<BOOL:${includes}>:-isystem$<JOIN:${includes},\n-isystem>>
+$<$<BOOL:${definitions}>:-D$<JOIN:${definitions},\n-D>>\n")
 # check_source(STAMPS NAME SOURCE COMMENT): compiled, but for the code; adds a file that says so to the list STAMPS.
 function(check_source stamps name source comment)
   set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.stamp)
   add_custom_command(OUTPUT ${stamp}
-    COMMAND ${header_compiler} ${clang_flags} -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+    COMMAND ${header_compiler} @${compile_flags} -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
             -MMD -MT ${stamp} -MF ${stamp}.d ${source}
     COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
     DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${comment}")
@@ -92,7 +92,6 @@ endif()
 find_program(CRUDE_REGISTRATION_CLANG_TIDY NAMES clang-tidy-14 clang-tidy)
 mark_as_advanced(CRUDE_REGISTRATION_CLANG_TIDY)
 if(CRUDE_REGISTRATION_CLANG_TIDY)
-  # (with the flags in headers/compile_flags.txt)
   set(tidy ${CRUDE_REGISTRATION_CLANG_TIDY} --quiet --warnings-as-errors=* --config-file=${PROJECT_SOURCE_DIR}/.clang-tidy
       -p ${PROJECT_BINARY_DIR}/headers)
   set(all_headers_source ${PROJECT_BINARY_DIR}/headers/all_headers.cpp)
