@@ -13,6 +13,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -28,7 +29,7 @@ class Run_control
 {
 public:
   // Thrown by check().
-  struct Stopped
+  struct Stopped : std::exception
   {};
 
 private:
