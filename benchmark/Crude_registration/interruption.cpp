@@ -7,6 +7,7 @@
 
 // How long a run goes on after its end was asked for: the longest time between two looks at its visitor.
 
+#include "command_line.h"
 #include "generated_scan.h"
 
 #include <CGAL/Crude_registration/register_scans.h>
@@ -114,12 +115,7 @@ int main(int argc, char* argv[])
     description.add_options()("help,h", "print this");
     description.add_options()("samples", po::value(&sizes)->multitoken(), "numbers of samples; default: up to 5000000");
     po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(description).run(), values);
-    if (values.count("help") != 0) {
-      std::cout << description;
-      return EXIT_SUCCESS;
-    }
-    po::notify(values);
+    if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
     std::cout << "seconds (of the clock): of the whole run, and the longest between two looks at the visitor\n"
               << "what                                samples     whole   longest\n";
     const Generated_scene scene(200);

@@ -8,6 +8,7 @@
 // Time and memory of preparing a scan, and the time of registering two, as they grow with the number of samples.
 
 #include "child_process.h"
+#include "command_line.h"
 #include "generated_scan.h"
 #include "plot_script.h"
 #include "reference_time.h"
@@ -374,12 +375,7 @@ int main(int argc, char* argv[])
     description.add_options()("output", po::value(&options.csv), "file to write the table to, as CSV");
     description.add_options()("plot", po::value(&options.plot), "gnuplot script to write; needs --output");
     po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(description).run(), values);
-    if (values.count("help") != 0) {
-      std::cout << description;
-      return EXIT_SUCCESS;
-    }
-    po::notify(values);
+    if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
     if (values.count("sizes") != 0) options.sizes = read_sizes(sizes);
     if (options.runs == 0) throw std::invalid_argument("--runs has to be at least 1");
     if (!options.plot.empty() && options.csv.empty()) throw std::invalid_argument("--plot needs --output");

@@ -8,6 +8,7 @@
 // Table 2 of the paper: the four neighbouring pairs of bunny scans, crude and refined, beside the published poses.
 
 #include "bunny_pairs.h"
+#include "command_line.h"
 
 #include <CGAL/Crude_registration/internal/atomic_file.h>
 
@@ -173,12 +174,7 @@ int main(int argc, char* argv[])
     description.add_options()("threads", po::value(&options.threads), "number of threads; default 1");
     description.add_options()("csv", po::value(&csv), "file to write the table to, as CSV");
     po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(description).run(), values);
-    if (values.count("help") != 0) {
-      std::cout << description;
-      return EXIT_SUCCESS;
-    }
-    po::notify(values);
+    if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
     options.use_normals = values.count("curvatures-only") == 0;
     return run(folder, csv, options);
   } catch (const std::exception& e) {

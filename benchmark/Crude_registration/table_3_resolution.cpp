@@ -8,6 +8,7 @@
 // Table 3 and Figure 12 of the paper: the resolution of the two meshes against the time of the search, bunny 0-90.
 
 #include "bunny_pairs.h"
+#include "command_line.h"
 #include "plot_script.h"
 
 #include <CGAL/Crude_registration/internal/atomic_file.h>
@@ -150,12 +151,7 @@ int main(int argc, char* argv[])
     description.add_options()("csv", po::value(&output.csv), "file to write the table to, as CSV");
     description.add_options()("plot", po::value(&output.plot), "gnuplot script of Figure 12 to write; needs --csv");
     po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(description).run(), values);
-    if (values.count("help") != 0) {
-      std::cout << description;
-      return EXIT_SUCCESS;
-    }
-    po::notify(values);
+    if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
     if (!output.plot.empty() && output.csv.empty()) throw std::invalid_argument("--plot needs --csv");
     options.use_normals = values.count("curvatures-only") == 0;
     return run(folder, output, options);
