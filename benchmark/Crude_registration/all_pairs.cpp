@@ -13,12 +13,12 @@
 
 #include "moved_scan.h"
 
-#include <CGAL/Crude_registration/approximation_error.h>
-#include <CGAL/Crude_registration/internal/Trihedron_search.h>
-#include <CGAL/Crude_registration/internal/atomic_file.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/internal/matching/Trihedron_search.h>
+#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 #include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/simplify_scan.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Surface_mesh.h>
 

@@ -12,12 +12,12 @@
 // that is from the published poses.
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
-#include <CGAL/Crude_registration/approximation_error.h>
-#include <CGAL/Crude_registration/internal/Prepared_scan.h>
-#include <CGAL/Crude_registration/internal/Trihedron_search.h>
-#include <CGAL/Crude_registration/refine_motion.h>
-#include <CGAL/Crude_registration/simplify_scan.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/internal/reduction/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/matching/Trihedron_search.h>
+#include <CGAL/Crude_registration/motion/refine_motion.h>
+#include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -20,8 +20,8 @@
 #include "peers/open3d.h"
 #include "peers/pcl.h"
 
-#include <CGAL/Crude_registration/estimate_sensor.h>
-#include <CGAL/Crude_registration/internal/atomic_file.h>
+#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
+#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 #include <CGAL/Crude_registration/register_scans.h>
 
 #include <Eigen/Geometry>

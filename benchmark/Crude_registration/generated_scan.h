@@ -10,8 +10,8 @@
 
 // Scans of a generated body with as many samples as are wanted.
 
-#include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/simulate_range_image.h>
+#include <CGAL/Crude_registration/simulation/make_statue.h>
+#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
 
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Simple_cartesian.h>

@@ -11,7 +11,7 @@
 #include "generated_scan.h"
 
 #include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <boost/program_options.hpp>
 

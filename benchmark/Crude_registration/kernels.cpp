@@ -11,15 +11,15 @@
 #include "generated_scan.h"
 
 #include <CGAL/Crude_registration/Scan.h>
-#include <CGAL/Crude_registration/approximation_error.h>
-#include <CGAL/Crude_registration/internal/Pose_search.h>
-#include <CGAL/Crude_registration/internal/Quadric_simplification.h>
-#include <CGAL/Crude_registration/internal/Surfel_pair_index.h>
-#include <CGAL/Crude_registration/principal_curvatures.h>
-#include <CGAL/Crude_registration/refine_motion.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/internal/matching/Pose_search.h>
+#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
+#include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
+#include <CGAL/Crude_registration/reduction/principal_curvatures.h>
+#include <CGAL/Crude_registration/motion/refine_motion.h>
 #include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/simplify_scan.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <benchmark/benchmark.h>
 

@@ -14,8 +14,8 @@
 #include "cpu_time.h"
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
-#include <CGAL/Crude_registration/simplify_scan.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

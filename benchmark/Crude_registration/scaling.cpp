@@ -13,10 +13,10 @@
 #include "plot_script.h"
 #include "reference_time.h"
 
-#include <CGAL/Crude_registration/internal/atomic_file.h>
+#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 #include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/rigid_motion.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/motion/rigid_motion.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <Eigen/Geometry>
 

@@ -8,13 +8,13 @@
 // Table 1 of the paper: what simplification to the approximation error leaves of the scans.
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
-#include <CGAL/Crude_registration/approximation_error.h>
-#include <CGAL/Crude_registration/internal/Quadric_simplification.h>
-#include <CGAL/Crude_registration/internal/atomic_file.h>
-#include <CGAL/Crude_registration/internal/scan_frame.h>
-#include <CGAL/Crude_registration/simplify_scan.h>
-#include <CGAL/Crude_registration/surface_types.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
+#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
+#include <CGAL/Crude_registration/internal/reduction/scan_frame.h>
+#include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/reduction/surface_types.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

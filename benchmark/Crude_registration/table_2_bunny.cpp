@@ -10,7 +10,7 @@
 #include "bunny_pairs.h"
 #include "command_line.h"
 
-#include <CGAL/Crude_registration/internal/atomic_file.h>
+#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 
 #include <boost/program_options.hpp>
 

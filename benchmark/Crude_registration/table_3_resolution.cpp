@@ -11,7 +11,7 @@
 #include "command_line.h"
 #include "plot_script.h"
 
-#include <CGAL/Crude_registration/internal/atomic_file.h>
+#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 
 #include <boost/program_options.hpp>
 

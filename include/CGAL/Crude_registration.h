@@ -16,21 +16,21 @@
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/Sensor.h>
-#include <CGAL/Crude_registration/Spatial_trihedron.h>
-#include <CGAL/Crude_registration/Vertex_pair_index.h>
-#include <CGAL/Crude_registration/approximation_error.h>
-#include <CGAL/Crude_registration/estimate_sensor.h>
-#include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/match_trihedra.h>
+#include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
+#include <CGAL/Crude_registration/internal/lookup/Vertex_pair_index.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
+#include <CGAL/Crude_registration/simulation/make_statue.h>
+#include <CGAL/Crude_registration/matching/match_trihedra.h>
 #include <CGAL/Crude_registration/named_parameters.h>
-#include <CGAL/Crude_registration/principal_curvatures.h>
-#include <CGAL/Crude_registration/refine_motion.h>
+#include <CGAL/Crude_registration/reduction/principal_curvatures.h>
+#include <CGAL/Crude_registration/motion/refine_motion.h>
 #include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/rigid_motion.h>
-#include <CGAL/Crude_registration/simplify_scan.h>
-#include <CGAL/Crude_registration/simulate_range_image.h>
-#include <CGAL/Crude_registration/surface_types.h>
-#include <CGAL/Crude_registration/triangulate_points.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/motion/rigid_motion.h>
+#include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
+#include <CGAL/Crude_registration/reduction/surface_types.h>
+#include <CGAL/Crude_registration/sampling/triangulate_points.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #endif // CGAL_CRUDE_REGISTRATION_H

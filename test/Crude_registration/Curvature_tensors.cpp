@@ -10,7 +10,7 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/Curvature_tensors.h>
+#include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
 
 #include <algorithm>
 #include <array>

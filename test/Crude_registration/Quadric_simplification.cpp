@@ -11,9 +11,9 @@
 #include "generated_surfaces.h"
 #include "mesh_of.h"
 
-#include <CGAL/Crude_registration/internal/Quadric_simplification.h>
-#include <CGAL/Crude_registration/internal/Triangle_tree.h>
-#include <CGAL/Crude_registration/simplify_scan.h>
+#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
+#include <CGAL/Crude_registration/internal/lookup/Triangle_tree.h>
+#include <CGAL/Crude_registration/reduction/simplify_scan.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -12,8 +12,8 @@
 #include "mesh_of.h"
 #include "wrong_use.h"
 
-#include <CGAL/Crude_registration/approximation_error.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

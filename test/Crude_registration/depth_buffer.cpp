@@ -3,7 +3,7 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/Depth_buffer.h>
+#include <CGAL/Crude_registration/internal/lookup/Depth_buffer.h>
 
 #include <cmath>
 #include <limits>

@@ -11,9 +11,9 @@
 #include "range_images.h"
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
-#include <CGAL/Crude_registration/estimate_sensor.h>
-#include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/simulate_range_image.h>
+#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
+#include <CGAL/Crude_registration/simulation/make_statue.h>
+#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
 
 #include <CGAL/Surface_mesh.h>
 

@@ -10,7 +10,7 @@
 
 // Triangle meshes of surfaces whose geometry is known, with vertices where nothing is regular about them.
 
-#include <CGAL/Crude_registration/internal/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 
 #include <Eigen/Geometry>
 

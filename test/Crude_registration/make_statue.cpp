@@ -10,8 +10,8 @@
 
 #include "mesh_of.h"
 
-#include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+#include <CGAL/Crude_registration/simulation/make_statue.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>

@@ -8,7 +8,7 @@
 #define BOOST_TEST_MODULE match_trihedra
 #include <boost/test/unit_test.hpp>
 
-#include <CGAL/Crude_registration/match_trihedra.h>
+#include <CGAL/Crude_registration/matching/match_trihedra.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

@@ -11,8 +11,8 @@
 #include "generated_surfaces.h"
 #include "wrong_use.h"
 
-#include <CGAL/Crude_registration/internal/add_flat_mesh.h>
-#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>

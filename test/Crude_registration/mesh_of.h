@@ -10,8 +10,8 @@
 
 // A flat mesh as a model of FaceGraph, and back.
 
-#include <CGAL/Crude_registration/internal/add_flat_mesh.h>
-#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 
 template <class FaceGraph>
 FaceGraph mesh_of(const CGAL::Crude_registration::internal::Flat_mesh& flat)

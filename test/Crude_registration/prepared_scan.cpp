@@ -3,8 +3,8 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/Prepared_scan.h>
-#include <CGAL/Crude_registration/internal/Statue.h>
+#include <CGAL/Crude_registration/internal/reduction/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/simulation/Statue.h>
 
 #include <algorithm>
 #include <cmath>

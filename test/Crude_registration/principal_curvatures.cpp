@@ -12,7 +12,7 @@
 #include "mesh_of.h"
 #include "wrong_use.h"
 
-#include <CGAL/Crude_registration/principal_curvatures.h>
+#include <CGAL/Crude_registration/reduction/principal_curvatures.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polyhedron_items_with_id_3.h>

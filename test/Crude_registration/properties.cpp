@@ -3,8 +3,8 @@
 
 #include "registration_checks.h"
 
-#include <CGAL/Crude_registration/internal/Statue.h>
-#include <CGAL/Crude_registration/simulate_range_image.h>
+#include <CGAL/Crude_registration/internal/simulation/Statue.h>
+#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
-#include <CGAL/Crude_registration/refine_motion.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/motion/refine_motion.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,7 +1,7 @@
 #define BOOST_TEST_MODULE refine_motion
 #include <boost/test/unit_test.hpp>
 
-#include <CGAL/Crude_registration/refine_motion.h>
+#include <CGAL/Crude_registration/motion/refine_motion.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>

@@ -6,10 +6,10 @@
 #include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
-#include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/simulate_range_image.h>
-#include <CGAL/Crude_registration/triangulate_points.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/simulation/make_statue.h>
+#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
+#include <CGAL/Crude_registration/sampling/triangulate_points.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>

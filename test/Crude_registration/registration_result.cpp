@@ -2,7 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <CGAL/Crude_registration/Registration_result.h>
-#include <CGAL/Crude_registration/internal/result_json.h>
+#include <CGAL/Crude_registration/IO/internal/result_json.h>
 
 #include <CGAL/Simple_cartesian.h>
 

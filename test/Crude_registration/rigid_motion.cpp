@@ -3,7 +3,7 @@
 
 #include "wrong_use.h"
 
-#include <CGAL/Crude_registration/rigid_motion.h>
+#include <CGAL/Crude_registration/motion/rigid_motion.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>

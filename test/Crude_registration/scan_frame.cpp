@@ -10,7 +10,7 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/scan_frame.h>
+#include <CGAL/Crude_registration/internal/reduction/scan_frame.h>
 
 #include <cmath>
 

@@ -10,8 +10,8 @@
 
 #include "mesh_of.h"
 
-#include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/simulate_range_image.h>
+#include <CGAL/Crude_registration/simulation/make_statue.h>
+#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/Polyhedron_3.h>

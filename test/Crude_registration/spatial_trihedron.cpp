@@ -8,7 +8,7 @@
 #define BOOST_TEST_MODULE spatial_trihedron
 #include <boost/test/unit_test.hpp>
 
-#include <CGAL/Crude_registration/Spatial_trihedron.h>
+#include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

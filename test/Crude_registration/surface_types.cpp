@@ -12,7 +12,7 @@
 #include "mesh_of.h"
 #include "wrong_use.h"
 
-#include <CGAL/Crude_registration/surface_types.h>
+#include <CGAL/Crude_registration/reduction/surface_types.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

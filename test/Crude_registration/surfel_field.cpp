@@ -3,7 +3,7 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/Surfel_field.h>
+#include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>
 
 #include <cmath>
 #include <cstddef>

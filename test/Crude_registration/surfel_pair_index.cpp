@@ -3,7 +3,7 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/Surfel_pair_index.h>
+#include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
 
 #include <Eigen/LU>
 

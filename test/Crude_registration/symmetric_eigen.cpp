@@ -3,7 +3,7 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/symmetric_eigen.h>
+#include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
 
 #include <limits>
 

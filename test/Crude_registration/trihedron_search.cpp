@@ -11,11 +11,11 @@
 #include <boost/test/unit_test.hpp>
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
-#include <CGAL/Crude_registration/internal/Quadric_simplification.h>
-#include <CGAL/Crude_registration/internal/Trihedron_search.h>
-#include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/simulate_range_image.h>
-#include <CGAL/Crude_registration/triangulate_range_image.h>
+#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
+#include <CGAL/Crude_registration/internal/matching/Trihedron_search.h>
+#include <CGAL/Crude_registration/simulation/make_statue.h>
+#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Simple_cartesian.h>

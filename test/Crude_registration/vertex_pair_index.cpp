@@ -8,8 +8,8 @@
 #define BOOST_TEST_MODULE vertex_pair_index
 #include <boost/test/unit_test.hpp>
 
-#include <CGAL/Crude_registration/Vertex_pair_index.h>
-#include <CGAL/Crude_registration/internal/Point_grid.h>
+#include <CGAL/Crude_registration/internal/lookup/Vertex_pair_index.h>
+#include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
 
 #include "generated_surfaces.h"
 #include "wrong_use.h"

@@ -1,5 +1,5 @@
-#include <CGAL/Crude_registration/make_statue.h>
-#include <CGAL/Crude_registration/simulate_range_image.h>
+#include <CGAL/Crude_registration/simulation/make_statue.h>
+#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

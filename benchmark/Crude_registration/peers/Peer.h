@@ -10,8 +10,8 @@
 
 // What the peers of compare_with_peers have in common.
 
-#include <CGAL/Crude_registration/internal/Flat_range_image.h>
-#include <CGAL/Crude_registration/internal/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 #include <Eigen/Core>
 

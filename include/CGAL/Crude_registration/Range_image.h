@@ -9,7 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_RANGE_IMAGE_H
 
 #include <CGAL/Crude_registration/Sensor.h>
-#include <CGAL/Crude_registration/internal/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
 
 #include <CGAL/number_utils.h>
 

@@ -8,7 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
 #define CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
 
-#include <CGAL/Crude_registration/internal/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/assertions.h>

@@ -10,13 +10,13 @@
 
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/Sensor.h>
-#include <CGAL/Crude_registration/estimate_sensor.h>
-#include <CGAL/Crude_registration/internal/Flat_triangulation.h>
-#include <CGAL/Crude_registration/internal/Prepared_scan.h>
-#include <CGAL/Crude_registration/internal/Run_control.h>
-#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
+#include <CGAL/Crude_registration/internal/sampling/Flat_triangulation.h>
+#include <CGAL/Crude_registration/internal/reduction/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 #include <CGAL/Crude_registration/named_parameters.h>
-#include <CGAL/Crude_registration/triangulate_points.h>
+#include <CGAL/Crude_registration/sampling/triangulate_points.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/property_map.h>

@@ -8,7 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SENSOR_H
 #define CGAL_CRUDE_REGISTRATION_SENSOR_H
 
-#include <CGAL/Crude_registration/internal/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/number_utils.h>

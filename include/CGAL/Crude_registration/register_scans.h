@@ -10,7 +10,7 @@
 
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
-#include <CGAL/Crude_registration/internal/register_prepared_scans.h>
+#include <CGAL/Crude_registration/internal/pipeline/register_prepared_scans.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <string>

@@ -10,10 +10,10 @@
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/estimate_sensor.h>
-#include <CGAL/Crude_registration/internal/Ply_reader.h>
-#include <CGAL/Crude_registration/internal/checked_range_image.h>
-#include <CGAL/Crude_registration/internal/read_file.h>
+#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
+#include <CGAL/Crude_registration/IO/internal/Ply_reader.h>
+#include <CGAL/Crude_registration/IO/internal/checked_range_image.h>
+#include <CGAL/Crude_registration/IO/internal/read_file.h>
 
 #include <istream>
 #include <iterator>

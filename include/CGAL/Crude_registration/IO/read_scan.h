@@ -11,10 +11,10 @@
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/internal/Ply_reader.h>
-#include <CGAL/Crude_registration/internal/point_readers.h>
-#include <CGAL/Crude_registration/internal/polygon_soup_readers.h>
-#include <CGAL/Crude_registration/internal/read_file.h>
+#include <CGAL/Crude_registration/IO/internal/Ply_reader.h>
+#include <CGAL/Crude_registration/IO/internal/point_readers.h>
+#include <CGAL/Crude_registration/IO/internal/polygon_soup_readers.h>
+#include <CGAL/Crude_registration/IO/internal/read_file.h>
 
 #include <CGAL/IO/GOCAD.h>
 #include <CGAL/IO/VTK.h>

@@ -10,7 +10,7 @@
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/internal/atomic_file.h>
+#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 
 #include <CGAL/number_utils.h>
 

@@ -1,0 +1,486 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_PLY_READER_H
+#define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_PLY_READER_H
+
+#include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// What this package takes from a PLY file; all else in it is passed over.
+struct Ply_contents
+{
+  std::vector<std::array<double, 3>> points;
+  bool has_grid = false; // is there an `element range_grid`?
+  std::size_t columns = 0, rows = 0;
+  std::vector<std::int32_t> grid; // row by row; -1 where there is no sample
+  bool has_viewpoint = false,
+       has_viewing_direction = false; // `obj_info viewpoint x y z`, as write_range_image() writes
+  std::array<double, 3> viewpoint = {0, 0, 0}, viewing_direction = {0, 0, 0};
+  std::vector<std::vector<std::size_t>> faces;
+};
+
+// The reader reads as the file: header, then element by element, each property by its role.
+class Ply_reader
+{
+public:
+  // `file` is only named in errors
+  Ply_reader(std::string_view data, const std::string& file) : m_data(data), m_file(file) {}
+
+  Ply_contents read()
+  {
+    read_header();
+    if (m_format == ASCII) {
+      Ascii source(m_data.substr(m_body), m_file, m_body_line);
+      read_body(source);
+    } else if ((m_format == BINARY_LITTLE_ENDIAN) == is_little_endian()) {
+      Binary<false> source(m_data, m_body, m_file);
+      read_body(source);
+    } else {
+      Binary<true> source(m_data, m_body, m_file);
+      read_body(source);
+    }
+    check_grid();
+    return std::move(m_contents);
+  }
+
+private:
+  enum Format
+  {
+    NO_FORMAT,
+    ASCII,
+    BINARY_LITTLE_ENDIAN,
+    BINARY_BIG_ENDIAN
+  };
+  enum Type
+  {
+    INT8,
+    UINT8,
+    INT16,
+    UINT16,
+    INT32,
+    UINT32,
+    FLOAT32,
+    FLOAT64
+  };
+  enum Role
+  {
+    SKIP,
+    X,
+    Y,
+    Z,
+    INDICES
+  };
+
+  struct Property
+  {
+    std::string name;
+    Type type;
+    bool is_list;
+    Type count_type;
+    Role role;
+  };
+
+  struct Element
+  {
+    std::string name;
+    std::uint64_t count;
+    std::size_t line;
+    std::vector<Property> properties;
+
+    Property* find(std::string_view property)
+    {
+      for (Property& p : properties)
+        if (p.name == property) return &p;
+      return nullptr;
+    }
+  };
+
+  static bool is_little_endian()
+  {
+    const std::uint16_t one = 1;
+    unsigned char first;
+    std::memcpy(&first, &one, 1);
+    return first == 1;
+  }
+
+  // --- header -------------------------------------------------------------------------------------------------------
+
+  void read_header()
+  {
+    Text_cursor cursor(m_data, m_file);
+    if (!cursor.next_line() || cursor.word() != "ply") cursor.fail("not a PLY file: its first line is not 'ply'");
+    for (;;) {
+      if (!cursor.next_line()) cursor.fail("the file ends before 'end_header'");
+      const std::string_view keyword = cursor.word();
+      if (keyword == "format") read_format(cursor);
+      else if (keyword == "element") read_element(cursor);
+      else if (keyword == "property") read_property(cursor);
+      else if (keyword == "obj_info") read_obj_info(cursor);
+      else if (keyword == "end_header") break;
+      else if (keyword != "comment") cursor.fail("unknown word in the header: '" + shown(keyword) + "'");
+    }
+    m_body = static_cast<std::size_t>(cursor.next_line_begin() - m_data.data());
+    m_body_line = cursor.next_line_number();
+    if (m_format == NO_FORMAT) cursor.fail("the header has no 'format'");
+    assign_roles(cursor);
+  }
+
+  void read_format(Text_cursor& cursor)
+  {
+    const std::string_view format = cursor.word();
+    if (format == "ascii") m_format = ASCII;
+    else if (format == "binary_little_endian") m_format = BINARY_LITTLE_ENDIAN;
+    else if (format == "binary_big_endian") m_format = BINARY_BIG_ENDIAN;
+    else cursor.fail("unknown format: '" + shown(format) + "'");
+  }
+
+  void read_element(Text_cursor& cursor)
+  {
+    Element e;
+    e.name = std::string(cursor.word());
+    if (e.name.empty()) cursor.fail("the element has no name");
+    for (const Element& other : m_elements)
+      if (other.name == e.name) cursor.fail("the element '" + shown(e.name) + "' is declared twice");
+    const long long count = cursor.integer("the number of elements");
+    if (count < 0) cursor.fail("the number of elements is negative");
+    e.count = static_cast<std::uint64_t>(count);
+    e.line = cursor.line();
+    m_elements.push_back(e);
+  }
+
+  void read_property(Text_cursor& cursor)
+  {
+    if (m_elements.empty()) cursor.fail("a property before the first element");
+    Property p;
+    std::string_view type = cursor.word();
+    p.is_list = type == "list";
+    p.count_type = UINT8;
+    if (p.is_list) {
+      p.count_type = read_type(cursor, cursor.word());
+      if (p.count_type == FLOAT32 || p.count_type == FLOAT64)
+        cursor.fail("the length of a list is not an integer type");
+      type = cursor.word();
+    }
+    p.type = read_type(cursor, type);
+    p.name = std::string(cursor.word());
+    if (p.name.empty()) cursor.fail("the property has no name");
+    p.role = SKIP;
+    m_elements.back().properties.push_back(p);
+  }
+
+  static Type read_type(const Text_cursor& cursor, std::string_view name)
+  {
+    if (name == "char" || name == "int8") return INT8;
+    if (name == "uchar" || name == "uint8") return UINT8;
+    if (name == "short" || name == "int16") return INT16;
+    if (name == "ushort" || name == "uint16") return UINT16;
+    if (name == "int" || name == "int32") return INT32;
+    if (name == "uint" || name == "uint32") return UINT32;
+    if (name == "float" || name == "float32") return FLOAT32;
+    if (name == "double" || name == "float64") return FLOAT64;
+    cursor.fail("unknown type: '" + shown(name) + "'");
+  }
+
+  void read_obj_info(Text_cursor& cursor)
+  {
+    const std::string_view key = cursor.word();
+    if (key == "num_cols") m_contents.columns = read_size(cursor, "num_cols");
+    if (key == "num_rows") m_contents.rows = read_size(cursor, "num_rows");
+    if (key == "viewpoint") m_contents.has_viewpoint = read_vector(cursor, m_contents.viewpoint, "viewpoint");
+    if (key == "viewing_direction")
+      m_contents.has_viewing_direction = read_vector(cursor, m_contents.viewing_direction, "viewing_direction");
+    if (m_contents.has_viewing_direction && m_contents.viewing_direction == std::array<double, 3>{0, 0, 0})
+      cursor.fail("viewing_direction is null");
+  }
+
+  static std::size_t read_size(Text_cursor& cursor, const char* key)
+  {
+    const long long n = cursor.integer(key);
+    if (n <= 0) cursor.fail(std::string(key) + " is not positive");
+    return static_cast<std::size_t>(n);
+  }
+
+  static bool read_vector(Text_cursor& cursor, std::array<double, 3>& v, const char* key)
+  {
+    for (double& coordinate : v) {
+      coordinate = cursor.number(key);
+      if (!std::isfinite(coordinate)) cursor.fail(std::string(key) + " is not finite");
+    }
+    return true;
+  }
+
+  // which properties are read as what
+  void assign_roles(const Text_cursor& cursor)
+  {
+    bool has_vertices = false;
+    for (Element& e : m_elements) {
+      if (e.name == "vertex") {
+        has_vertices = true;
+        m_vertex_count = e.count;
+        const char* names[3] = {"x", "y", "z"};
+        for (int i = 0; i < 3; ++i) {
+          Property* p = e.find(names[i]);
+          if (p == nullptr || p->is_list)
+            throw IO_error(m_file, e.line, std::string("the vertices have no property '") + names[i] + "'");
+          p->role = static_cast<Role>(X + i);
+        }
+      } else if (e.name == "range_grid" || e.name == "face") {
+        Property* p = e.find("vertex_indices");
+        if (p == nullptr) p = e.find("vertex_index");
+        if (p == nullptr || !p->is_list || p->type == FLOAT32 || p->type == FLOAT64)
+          throw IO_error(m_file, e.line, "the element '" + e.name + "' has no list of integers 'vertex_indices'");
+        p->role = INDICES;
+      }
+      if (e.name == "range_grid") {
+        m_contents.has_grid = true;
+        const std::size_t columns = m_contents.columns, rows = m_contents.rows;
+        if (columns == 0) cursor.fail("the header has a range_grid, but no 'obj_info num_cols'");
+        if (rows == 0) cursor.fail("the header has a range_grid, but no 'obj_info num_rows'");
+        if (e.count / columns != rows || e.count % columns != 0)
+          throw IO_error(m_file, e.line,
+                         "the range_grid has " + std::to_string(e.count) + " cells, but num_cols times num_rows is " +
+                             std::to_string(columns) + " times " + std::to_string(rows));
+      }
+      if (e.count > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
+        throw IO_error(m_file, e.line, "more than 2^31 - 1 elements");
+    }
+    if (!has_vertices) cursor.fail("the header has no 'element vertex'");
+  }
+
+  // --- body ---------------------------------------------------------------------------------------------------------
+
+  // One element a line.
+  class Ascii
+  {
+  public:
+    Ascii(std::string_view text, const std::string& file, std::size_t line) : m_cursor(text, file, line) {}
+
+    void begin_element(const Element& e, std::uint64_t i)
+    {
+      if (!m_cursor.next_line())
+        throw IO_error(m_cursor.file(), m_cursor.next_line_number(),
+                       "the file ends after " + std::to_string(i) + " of " + std::to_string(e.count) + " elements '" +
+                           e.name + "'");
+    }
+    void end_element()
+    {
+      if (m_cursor.has_word()) m_cursor.fail("more values than the header declares");
+    }
+    double number(const Property& p) { return m_cursor.number(p.name.c_str()); }
+    long long count(const Property&) { return m_cursor.integer("the length of a list"); }
+    long long index(const Property& p) { return m_cursor.integer(p.name.c_str()); }
+    void skip(const Property&)
+    {
+      if (m_cursor.word().empty()) m_cursor.fail("fewer values than the header declares");
+    }
+    [[noreturn]] void fail(const std::string& what) const { m_cursor.fail(what); }
+
+  private:
+    Text_cursor m_cursor;
+  };
+
+  template <bool swap>
+  class Binary
+  {
+  public:
+    Binary(std::string_view data, std::size_t position, const std::string& file)
+        : m_data(data), m_position(position), m_begin(position), m_file(file)
+    {}
+
+    void begin_element(const Element& e, std::uint64_t i)
+    {
+      m_element = &e;
+      m_index = i;
+      m_begin = m_position;
+    }
+    void end_element() {}
+    double number(const Property& p)
+    {
+      switch (p.type) {
+      case INT8:
+        return get<std::int8_t>();
+      case UINT8:
+        return get<std::uint8_t>();
+      case INT16:
+        return get<std::int16_t>();
+      case UINT16:
+        return get<std::uint16_t>();
+      case INT32:
+        return get<std::int32_t>();
+      case UINT32:
+        return get<std::uint32_t>();
+      case FLOAT32:
+        return static_cast<double>(get<float>());
+      default:
+        return get<double>();
+      }
+    }
+    long long count(const Property& p) { return integer(p.count_type); }
+    long long index(const Property& p) { return integer(p.type); }
+    void skip(const Property& p) { advance(size(p.type)); }
+    [[noreturn]] void fail(const std::string& what) const { fail_at(m_begin, what); }
+
+  private:
+    static std::size_t size(Type t) { return t <= UINT8 ? 1 : t <= UINT16 ? 2 : t == FLOAT64 ? 8 : 4; }
+    long long integer(Type t)
+    {
+      switch (t) {
+      case INT8:
+        return get<std::int8_t>();
+      case UINT8:
+        return get<std::uint8_t>();
+      case INT16:
+        return get<std::int16_t>();
+      case UINT16:
+        return get<std::uint16_t>();
+      case INT32:
+        return get<std::int32_t>();
+      default:
+        return get<std::uint32_t>();
+      }
+    }
+    template <class T>
+    T get()
+    {
+      const std::size_t at = m_position;
+      advance(sizeof(T));
+      unsigned char bytes[sizeof(T)];
+      std::memcpy(bytes, m_data.data() + at, sizeof(T));
+      if (swap) std::reverse(bytes, bytes + sizeof(T));
+      T value;
+      std::memcpy(&value, bytes, sizeof(T));
+      return value;
+    }
+    void advance(std::size_t bytes)
+    {
+      if (m_data.size() - m_position < bytes)
+        fail_at(m_data.size(), "the file ends after " + std::to_string(m_index) + " of " +
+                                   std::to_string(m_element->count) + " elements '" + m_element->name + "'");
+      m_position += bytes;
+    }
+    [[noreturn]] void fail_at(std::size_t byte, const std::string& what) const
+    {
+      throw IO_error(m_file, "byte " + std::to_string(byte) + ": " + what);
+    }
+
+    std::string_view m_data;
+    std::size_t m_position;
+    std::size_t m_begin; // of the current element
+    const std::string& m_file;
+    const Element* m_element = nullptr;
+    std::uint64_t m_index = 0;
+  };
+
+  template <class Source>
+  void read_body(Source& source)
+  {
+    std::array<double, 3> xyz = {0, 0, 0};
+    std::vector<long long> indices;
+    for (const Element& e : m_elements) {
+      if (e.properties.empty()) continue;
+      const bool is_vertex = e.name == "vertex", is_grid = e.name == "range_grid", is_face = e.name == "face";
+      // a count that the file cannot hold must not make us ask for the memory
+      const std::size_t expected = static_cast<std::size_t>(std::min<std::uint64_t>(e.count, m_data.size()));
+      if (is_vertex) m_contents.points.reserve(expected);
+      if (is_grid) m_contents.grid.reserve(expected);
+      if (is_face) m_contents.faces.reserve(expected);
+      for (std::uint64_t i = 0; i < e.count; ++i) {
+        source.begin_element(e, i);
+        for (const Property& p : e.properties) {
+          if (p.role == X || p.role == Y || p.role == Z) xyz[static_cast<std::size_t>(p.role - X)] = source.number(p);
+          else if (p.is_list) read_list(source, p, indices);
+          else source.skip(p);
+        }
+        source.end_element();
+        if (is_vertex) {
+          if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]))
+            source.fail("a coordinate of vertex " + std::to_string(i) + " is NaN or infinite");
+          m_contents.points.push_back(xyz);
+        } else if (is_grid) {
+          if (indices.size() > 1) source.fail("a cell of the range_grid holds more than one vertex");
+          m_contents.grid.push_back(indices.empty() ? -1 : static_cast<std::int32_t>(indices[0]));
+        } else if (is_face) {
+          m_contents.faces.emplace_back(indices.begin(), indices.end());
+        }
+      }
+    }
+  }
+
+  // The list is kept if its role is INDICES: indices of vertices then.
+  template <class Source>
+  void read_list(Source& source, const Property& p, std::vector<long long>& indices) const
+  {
+    const long long length = source.count(p);
+    if (length < 0) source.fail("the length of a list is negative");
+    if (p.role == SKIP) {
+      for (long long k = 0; k < length; ++k) source.skip(p);
+      return;
+    }
+    indices.clear();
+    for (long long k = 0; k < length; ++k) {
+      const long long index = source.index(p);
+      if (index < 0 || static_cast<std::uint64_t>(index) >= m_vertex_count)
+        source.fail("the vertex index " + std::to_string(index) + " is outside the " + std::to_string(m_vertex_count) +
+                    " vertices");
+      indices.push_back(index);
+    }
+  }
+
+  void check_grid() const
+  {
+    std::vector<bool> used(m_contents.points.size(), false);
+    for (std::size_t cell = 0; cell < m_contents.grid.size(); ++cell) {
+      if (m_contents.grid[cell] < 0) continue;
+      const std::size_t vertex = static_cast<std::size_t>(m_contents.grid[cell]);
+      if (used[vertex])
+        throw IO_error(m_file, "vertex " + std::to_string(vertex) +
+                                   " is in two cells of the range_grid, the second in column " +
+                                   std::to_string(cell % m_contents.columns) + ", row " +
+                                   std::to_string(cell / m_contents.columns));
+      used[vertex] = true;
+    }
+  }
+
+  static std::string shown(std::string_view word) { return std::string(word.substr(0, 40)); }
+
+  std::string_view m_data;
+  const std::string& m_file;
+  Format m_format = NO_FORMAT;
+  std::vector<Element> m_elements;
+  std::uint64_t m_vertex_count = 0;
+  std::size_t m_body = 0;      // where the body starts, in bytes
+  std::size_t m_body_line = 0; // and in lines
+  Ply_contents m_contents;
+};
+
+// `file` is only named in errors.
+inline Ply_contents read_ply(std::string_view data, const std::string& file)
+{
+  return Ply_reader(data, file).read();
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_IO_INTERNAL_PLY_READER_H

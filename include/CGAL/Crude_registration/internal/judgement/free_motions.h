@@ -1,0 +1,84 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_FREE_MOTIONS_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_FREE_MOTIONS_H
+
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
+
+#include <Eigen/Geometry>
+
+#include <locale>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The motions that an overlap leaves free, in words, and the kind of surface that leaves just these.
+struct Free_motions
+{
+  std::string surface; // empty where no one kind does
+  std::vector<std::string> motions;
+};
+
+// `free`: small motions (w, v), x -> x + w x x + v, that span all that is free. `centre`, `radius`: of the overlap, in
+// the same frame; a motion is a translation where its turn moves the overlap by less than a seventh of what its shift
+// does.
+inline Free_motions name_free_motions(const std::vector<Eigen::Matrix<double, 6, 1>>& free, const Vector& centre,
+                                      double radius)
+{
+  Free_motions names;
+  if (free.empty() || !(radius > 0)) return names;
+  // In units of length, about the centre, orthonormal.
+  const Eigen::Index n = Eigen::Index(free.size());
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> basis(6, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Vector w = free[std::size_t(k)].head<3>(), v = free[std::size_t(k)].tail<3>();
+    basis.col(k) << radius * w, v + w.cross(centre);
+    for (Eigen::Index i = 0; i < k; ++i) basis.col(k) -= basis.col(i).dot(basis.col(k)) * basis.col(i);
+    basis.col(k).normalize();
+  }
+  // Its turns from the largest to none.
+  const auto turns = symmetric_eigen(basis.topRows<3>().transpose() * basis.topRows<3>());
+  basis = basis * turns.vectors.rowwise().reverse();
+
+  const auto text = [](const Vector& v) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(4);
+    out << '(' << v.x() << ' ' << v.y() << ' ' << v.z() << ')';
+    return out.str();
+  };
+  int translations = 0, rotations = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Vector w = basis.col(k).head<3>() / radius, v = basis.col(k).tail<3>();
+    if (radius * w.norm() < 0.15) {
+      ++translations;
+      names.motions.push_back("translation along " + text(v.normalized()));
+    } else {
+      ++rotations;
+      names.motions.push_back("rotation about " + text(w.normalized()) + " through " +
+                              text(centre + w.cross(v) / w.squaredNorm()));
+    }
+  }
+  if (translations == 2 && rotations == 1) names.surface = "a plane";
+  else if (translations == 0 && rotations == 3) names.surface = "a sphere";
+  else if (translations == 1 && rotations == 1) names.surface = "a cylinder";
+  else if (translations == 0 && rotations == 1) names.surface = "a surface of revolution";
+  else if (translations == 1 && rotations == 0) names.surface = "a surface of extrusion";
+  return names;
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_FREE_MOTIONS_H

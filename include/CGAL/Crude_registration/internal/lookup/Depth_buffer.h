@@ -1,0 +1,141 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_DEPTH_BUFFER_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_DEPTH_BUFFER_H
+
+#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
+#include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Free space: a range scan also says where there is nothing, as every sample lies at the end of a line of sight that
+// was empty before it. The lines of sight in cells, each with the least depth of the samples in its 3 x 3
+// neighbourhood, so that neither noise nor a slanted surface nor a depth edge makes up a violation.
+class Depth_buffer
+{
+public:
+  Depth_buffer() = default;
+
+  // `direction`: unit, from the sensor into the scene; for a perspective sensor at `viewpoint` its mean direction.
+  // `cell`: the edge length of a cell, for a perspective sensor at the mean range.
+  // \throws Run_control::Stopped
+  Depth_buffer(Flat_sensor::Kind kind, const Vector_f& viewpoint, const Vector_f& direction,
+               const std::vector<Vector_f>& samples, float cell, Run_control& control = to_the_end())
+      : m_kind(samples.empty() ? Flat_sensor::UNKNOWN : kind)
+  {
+    m_viewpoint = viewpoint;
+    if (m_kind == Flat_sensor::UNKNOWN) return;
+    const Vector_f u = direction.unitOrthogonal();
+    m_axes.row(0) = u;
+    m_axes.row(1) = direction.cross(u);
+    m_axes.row(2) = direction;
+
+    std::vector<Vector_f> projected; // x, y, depth
+    projected.reserve(samples.size());
+    double sum = 0;
+    std::size_t steps = 0;
+    for (const Vector_f& p : samples) {
+      control.check(++steps);
+      const Vector_f q = project(p);
+      if (!q.allFinite()) continue;
+      projected.push_back(q);
+      sum += double(q[2]);
+    }
+    if (projected.empty()) {
+      m_kind = Flat_sensor::UNKNOWN;
+      return;
+    }
+    if (m_kind == Flat_sensor::PERSPECTIVE) cell /= float(sum / double(projected.size()));
+    Vector_f low = projected.front(), high = low;
+    for (const Vector_f& q : projected) {
+      low = low.cwiseMin(q);
+      high = high.cwiseMax(q);
+    }
+    constexpr float most = 4096; // cells a side
+    cell = (std::max)(cell, (std::max)(high[0] - low[0], high[1] - low[1]) / most);
+    m_scale = 1 / cell;
+    m_low_x = low[0] - 2 * cell;
+    m_low_y = low[1] - 2 * cell;
+    m_columns = int((high[0] - m_low_x) * m_scale) + 3;
+    m_rows = int((high[1] - m_low_y) * m_scale) + 3;
+    constexpr float far = (std::numeric_limits<float>::max)();
+    std::vector<float> nearest(std::size_t(m_columns) * std::size_t(m_rows), far);
+    for (const Vector_f& q : projected) {
+      control.check(++steps);
+      float& d = nearest[std::size_t(int((q[0] - m_low_x) * m_scale)) * std::size_t(m_rows) +
+                         std::size_t(int((q[1] - m_low_y) * m_scale))];
+      d = (std::min)(d, q[2]);
+    }
+    // A cell at a hole or at the border of what was seen knows nothing.
+    m_depths.assign(nearest.size(), -far);
+    for (int i = 1; i + 1 < m_columns; ++i) {
+      control.check();
+      for (int j = 1; j + 1 < m_rows; ++j) {
+        const std::size_t c = std::size_t(i) * std::size_t(m_rows) + std::size_t(j);
+        if (nearest[c] == far) continue;
+        int filled = 0;
+        float least = far;
+        for (int di = -1; di <= 1; ++di)
+          for (int dj = -1; dj <= 1; ++dj) {
+            const float d = nearest[std::size_t(i + di) * std::size_t(m_rows) + std::size_t(j + dj)];
+            filled += d < far;
+            least = (std::min)(least, d);
+          }
+        if (filled >= 7) m_depths[c] = least;
+      }
+    }
+  }
+
+  bool is_known() const { return m_kind != Flat_sensor::UNKNOWN; }
+
+  // How far `p` is in front of the surface that was seen behind it, along the line of sight; negative where it is
+  // behind the surface or nothing is known.
+  float in_front(const Vector_f& p) const
+  {
+    const Vector_f q = project(p);
+    const float x = (q[0] - m_low_x) * m_scale, y = (q[1] - m_low_y) * m_scale;
+    const int is_inside =
+        int(x >= 0) & int(y >= 0) & int(x < float(m_columns)) & int(y < float(m_rows)); // not where it is NaN
+    const int i = int(is_inside != 0 ? x : 0),
+              j = int(is_inside != 0 ? y : 0); // a cell at the border, which knows nothing
+    const float depth = m_depths[std::size_t(i) * std::size_t(m_rows) + std::size_t(j)];
+    return is_inside != 0 ? depth - q[2] : -(std::numeric_limits<float>::max)();
+  }
+
+private:
+  // Image coordinates and depth; not numbers where there are none. Perspective: Lambert's azimuthal equal-area
+  // projection about the mean direction, as it holds the whole sphere (but the point opposite) in one plane.
+  Vector_f project(const Vector_f& p) const
+  {
+    Vector_f q = m_axes * (p - m_viewpoint);
+    if (m_kind == Flat_sensor::PERSPECTIVE) {
+      const float r = q.norm();
+      if (!(r + q[2] > 1e-3f * r)) // at the viewpoint or opposite
+        return Vector_f::Constant(std::numeric_limits<float>::quiet_NaN());
+      const float f = std::sqrt(2 / (r * (r + q[2])));
+      q = Vector_f(q[0] * f, q[1] * f, r);
+    }
+    return q;
+  }
+
+  Flat_sensor::Kind m_kind = Flat_sensor::UNKNOWN;
+  Vector_f m_viewpoint = Vector_f::Zero();
+  Matrix_f m_axes = Matrix_f::Identity();
+  float m_low_x = 0, m_low_y = 0, m_scale = 1;
+  int m_columns = 0, m_rows = 0;
+  std::vector<float> m_depths = {-(std::numeric_limits<float>::max)()}; // at least one, that knows nothing
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_DEPTH_BUFFER_H

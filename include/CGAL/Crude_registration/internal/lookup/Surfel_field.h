@@ -1,0 +1,166 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_FIELD_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_FIELD_H
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+using Vector_f = Eigen::Vector3f;
+using Matrix_f = Eigen::Matrix3f;
+
+// A small piece of surface: the mean of the samples in one cell, with their mean normal and the principal curvatures of
+// the neighbourhood times the spacing of the surfels, so that they have no unit.
+struct Surfel
+{
+  Vector_f position;
+  Vector_f normal;
+  float minimal_curvature = 0;
+  float maximal_curvature = 0;
+};
+
+// The nearest surfel to any place near the surface, by one look-up: voxels in blocks of 4 x 4 x 4, of which only those
+// near the surface exist. Memory is linear in the number of surfels.
+class Surfel_field
+{
+public:
+  static constexpr int none = -1;
+  static constexpr std::size_t maximum_size = 65535; // indices are stored in 16 bits
+
+  Surfel_field() = default;
+
+  // Every voxel of edge length `voxel` whose centre is within `reach` of a surfel knows the surfel nearest to its
+  // centre, the first of equally near ones.
+  Surfel_field(const std::vector<Surfel>& surfels, float voxel, float reach) : m_scale(1 / voxel)
+  {
+    if (surfels.empty()) return;
+    Vector_f low = surfels.front().position, high = low;
+    for (const Surfel& s : surfels) {
+      low = low.cwiseMin(s.position);
+      high = high.cwiseMax(s.position);
+    }
+    const float margin = reach + voxel;
+    for (int i = 0; i < 3; ++i) {
+      // What is more than maximum_blocks wide (a spike) is represented around the median.
+      const float limit = 0.5f * float(maximum_blocks) * 4 * voxel;
+      float middle = 0.5f * (low[i] + high[i]);
+      if (high[i] - low[i] + 2 * margin > 2 * limit) middle = median(surfels, i);
+      m_low[i] = (std::max)(low[i] - margin, middle - limit);
+      const float top = (std::min)(high[i] + margin, middle + limit);
+      m_blocks[std::size_t(i)] = (std::min)(maximum_blocks, int((top - m_low[i]) * m_scale * 0.25f) + 1);
+      m_size[i] = float(4 * m_blocks[std::size_t(i)]);
+    }
+    m_block_of.assign(std::size_t(m_blocks[0]) * std::size_t(m_blocks[1]) * std::size_t(m_blocks[2]), 0);
+    const float reach_in_voxels = reach * m_scale, reach2 = reach_in_voxels * reach_in_voxels;
+    // The bits of the squared distance (in the order of the distances, as they are positive) before those of the
+    // surfel: the least is the nearest, and the first of equally near ones.
+    const auto key = [](float squared_distance, std::uint64_t surfel) {
+      std::uint32_t bits;
+      std::memcpy(&bits, &squared_distance, sizeof bits);
+      return std::uint64_t(bits) << 16 | surfel;
+    };
+    const std::uint64_t out_of_reach = key(reach2, empty);
+    std::vector<std::uint64_t> keys(64, out_of_reach);
+    std::vector<float> z_distances; // squared, of the voxels of each block that is met
+    for (std::size_t i = 0; i < surfels.size(); ++i) {
+      const Vector_f p = (surfels[i].position - m_low) * m_scale;
+      if (!((p.array() >= 0).all() && (p.array() < m_size.array()).all())) continue; // far away, or not a number
+      int from[3], to[3];
+      for (int k = 0; k < 3; ++k) {
+        from[k] = (std::max)(0, int(std::ceil(p[k] - reach_in_voxels - 0.5f)));
+        to[k] = (std::min)(int(m_size[k]) - 1, int(std::floor(p[k] + reach_in_voxels - 0.5f)));
+      }
+      // The voxels of a block follow each other along z: four at a time, without a branch.
+      from[2] &= ~3;
+      z_distances.clear();
+      for (int z = from[2]; z <= (to[2] | 3); ++z) {
+        const float dz = float(z) + 0.5f - p[2];
+        z_distances.push_back(dz * dz);
+      }
+      for (int x = from[0]; x <= to[0]; ++x) {
+        const float dx = float(x) + 0.5f - p[0];
+        for (int y = from[1]; y <= to[1]; ++y) {
+          const float dy = float(y) + 0.5f - p[1], dxy = dx * dx + dy * dy;
+          if (dxy > reach2) continue;
+          for (int z = from[2]; z <= to[2]; z += 4) {
+            const float* const dz = z_distances.data() + (z - from[2]);
+            if (dxy + (std::min)((std::min)(dz[0], dz[1]), (std::min)(dz[2], dz[3])) > reach2) continue;
+            std::int32_t& block = m_block_of[block_index(x, y, z)];
+            if (block == 0) {
+              block = std::int32_t(keys.size() / 64);
+              keys.resize(keys.size() + 64, out_of_reach);
+            }
+            std::uint64_t* const voxels = keys.data() + std::size_t(block) * 64 + voxel_index(x, y, z);
+            for (std::size_t k = 0; k < 4; ++k) voxels[k] = (std::min)(voxels[k], key(dxy + dz[k], i));
+          }
+        }
+      }
+    }
+    m_voxels.resize(keys.size());
+    std::transform(keys.begin(), keys.end(), m_voxels.begin(), [](std::uint64_t k) { return std::uint16_t(k); });
+  }
+
+  // The index of the surfel nearest to the centre of the voxel of `p`, or `none`. Without a branch: which voxels are
+  // empty cannot be foretold, and a wrong guess costs more than the look-up.
+  int nearest(const Vector_f& p) const
+  {
+    const float x = (p[0] - m_low[0]) * m_scale, y = (p[1] - m_low[1]) * m_scale, z = (p[2] - m_low[2]) * m_scale;
+    const int is_inside = int(x >= 0) & int(y >= 0) & int(z >= 0) & int(x < m_size[0]) & int(y < m_size[1]) &
+                          int(z < m_size[2]); // not where it is NaN
+    const int i = int(is_inside != 0 ? x : 0), j = int(is_inside != 0 ? y : 0), k = int(is_inside != 0 ? z : 0);
+    const auto block = std::size_t(m_block_of[block_index(i, j, k)]);
+    const std::uint16_t s = m_voxels[block * 64 + voxel_index(i, j, k)];
+    return (is_inside & int(s != empty)) != 0 ? int(s) : none;
+  }
+
+private:
+  static constexpr std::uint16_t empty = 65535;
+  static constexpr int maximum_blocks = 256;
+
+  static float median(const std::vector<Surfel>& surfels, int axis)
+  {
+    std::vector<float> values;
+    values.reserve(surfels.size());
+    for (const Surfel& s : surfels) values.push_back(s.position[axis]);
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  }
+
+  std::size_t block_index(int x, int y, int z) const
+  {
+    return (std::size_t(x >> 2) * std::size_t(m_blocks[1]) + std::size_t(y >> 2)) * std::size_t(m_blocks[2]) +
+           std::size_t(z >> 2);
+  }
+  static std::size_t voxel_index(int x, int y, int z) { return std::size_t(((x & 3) << 4) | ((y & 3) << 2) | (z & 3)); }
+
+  Vector_f m_low = Vector_f::Zero();
+  Vector_f m_size = Vector_f::Zero(); // in voxels
+  float m_scale = 1;
+  std::array<int, 3> m_blocks{1, 1, 1};
+  std::vector<std::int32_t> m_block_of{0};
+  std::vector<std::uint16_t> m_voxels = std::vector<std::uint16_t>(64, empty); // the first block is that of nothing
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_FIELD_H

@@ -1,0 +1,263 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_PAIR_INDEX_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_PAIR_INDEX_H
+
+#include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>
+#include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
+#include <CGAL/Crude_registration/internal/base/fast_angles.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstring>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Two surfels as seen from each other: the angles between their normals and the line from the first to the second, and
+// the signed turn about that line from the first normal to the second. With the length of the line all that a rigid
+// motion leaves of two points with normals.
+struct Pair_angles
+{
+  float first, second, turn; // radians: [0, pi], [0, pi], [-pi, pi]
+};
+
+// The cosines of those angles; that of the turn and its sine have a common factor.
+struct Pair_cosines
+{
+  float first, second, turn, sine_of_turn;
+
+  // Seen from the other end the angles are supplements and the turn is the same.
+  Pair_cosines reversed() const { return {-second, -first, turn, sine_of_turn}; }
+};
+
+// False where a normal is so close to the line that the turn means nothing, or there is no line.
+inline bool pair_cosines(const Surfel& a, const Surfel& b, Pair_cosines& cosines)
+{
+  Vector_f d = b.position - a.position;
+  const float length = d.norm();
+  if (!(length > 0)) return false;
+  d *= 1 / length;
+  const float ca = a.normal.dot(d), cb = b.normal.dot(d);
+  constexpr float most = 0.98f;
+  if (!(std::abs(ca) < most && std::abs(cb) < most)) return false;
+  // Of the parts of the normals that are perpendicular to the line.
+  cosines = {ca, cb, a.normal.dot(b.normal) - ca * cb, d.dot(a.normal.cross(b.normal))};
+  return true;
+}
+
+inline bool pair_angles(const Surfel& a, const Surfel& b, Pair_angles& angles)
+{
+  Pair_cosines c;
+  if (!pair_cosines(a, b, c)) return false;
+  angles.first = float(fast_acos(double(c.first)));
+  angles.second = float(fast_acos(double(c.second)));
+  angles.turn = float(fast_atan2(double(c.sine_of_turn), double(c.turn)));
+  return true;
+}
+
+// The axes that two surfels span: the line between them, and the mean of their normals as far as it is perpendicular.
+// Maps equal pairs onto each other: rotation = pair_frame(target pair) * pair_frame(source pair)^T.
+inline Matrix_f pair_frame(const Surfel& a, const Surfel& b)
+{
+  Vector_f x = b.position - a.position;
+  x *= 1 / x.norm();
+  Vector_f z = a.normal + b.normal;
+  z -= z.dot(x) * x;
+  float length2 = z.squaredNorm();
+  if (length2 < 0.09f) {
+    z = a.normal - a.normal.dot(x) * x;
+    length2 = z.squaredNorm();
+  }
+  z *= 1 / std::sqrt(length2);
+  Matrix_f f;
+  f.col(0) = x;
+  f.col(1) = z.cross(x);
+  f.col(2) = z;
+  return f;
+}
+
+// The curvatures of a pair, in bytes.
+struct Pair_curvatures
+{
+  std::array<std::uint8_t, 4> values;
+
+  static std::uint8_t quantise(float k) { return std::uint8_t((std::min)((std::max)(k * 128 + 128.5f, 0.f), 255.f)); }
+
+  static Pair_curvatures of(const Surfel& a, const Surfel& b)
+  {
+    return {{quantise(a.minimal_curvature), quantise(a.maximal_curvature), quantise(b.minimal_curvature),
+             quantise(b.maximal_curvature)}};
+  }
+};
+
+// The curvatures that differ by at most a tolerance from some.
+class Curvature_window
+{
+public:
+  Curvature_window(const Pair_curvatures& middle, int tolerance)
+  {
+    std::array<std::uint8_t, 4> low, high;
+    for (std::size_t i = 0; i < 4; ++i) {
+      low[i] = std::uint8_t((std::max)(int(middle.values[i]) - tolerance, 0));
+      high[i] = std::uint8_t((std::min)(int(middle.values[i]) + tolerance, 255));
+    }
+    m_low = spread(low);
+    m_high = spread(high) | top;
+  }
+
+  // All four at once: a difference of 16 bits does not borrow from the next one while the top bit of its minuend is
+  // set, and leaves it set where it is not negative.
+  bool contains(const Pair_curvatures& curvatures) const
+  {
+    const std::uint64_t c = spread(curvatures.values);
+    return (((c | top) - m_low) & (m_high - c) & top) == top;
+  }
+
+private:
+  static constexpr std::uint64_t top = 0x8000800080008000;
+
+  // Each byte in 16 bits of its own, in whichever order.
+  static std::uint64_t spread(const std::array<std::uint8_t, 4>& bytes)
+  {
+    std::uint32_t all;
+    std::memcpy(&all, bytes.data(), sizeof all);
+    return (all & 0x00ff00ffu) | std::uint64_t(all & 0xff00ff00u) << 24;
+  }
+
+  std::uint64_t m_low, m_high;
+};
+
+// All ordered pairs of surfels of a scan whose distance is within `half_width` of `length`, by their angles: one
+// look-up finds the pairs (C, c1) that may correspond to a pair (V, v1), the sphere of the paper's section 6 with the
+// signed angles of the spatial descriptor.
+class Surfel_pair_index
+{
+public:
+  struct Entry
+  {
+    Pair_curvatures curvatures;
+    std::uint16_t first, second;
+  };
+
+  Surfel_pair_index() = default;
+
+  Surfel_pair_index(const std::vector<Surfel>& surfels, float length, float half_width)
+  {
+    std::vector<Vector> points;
+    points.reserve(surfels.size());
+    for (const Surfel& s : surfels) points.push_back(s.position.cast<double>());
+    const Point_grid grid(points, double(length + half_width) / 2);
+    const double least = double(length - half_width) * double(length - half_width);
+    struct Found_pair
+    {
+      std::uint16_t first, second, bin, reversed_bin;
+    };
+    // Surfels within a length of each other are some ten thousand pairs; that of another scan, of which this one is but
+    // a speck, does not find them all.
+    constexpr std::size_t most = 1000000;
+    std::vector<Found_pair> pairs;
+    m_offsets.assign(bins + 1, 0);
+    grid.for_each_pair_within(double(length + half_width), [&](std::int32_t i, std::int32_t j, double d2) {
+      Pair_cosines c;
+      if (d2 < least || !pair_cosines(surfels[std::size_t(i)], surfels[std::size_t(j)], c)) return true;
+      const std::size_t b = bin(c), r = bin(c.reversed());
+      ++m_offsets[b + 1];
+      ++m_offsets[r + 1];
+      pairs.push_back({std::uint16_t(i), std::uint16_t(j), std::uint16_t(b), std::uint16_t(r)});
+      return pairs.size() < most;
+    });
+    for (std::size_t b = 0; b < bins; ++b) m_offsets[b + 1] += m_offsets[b];
+    m_entries.resize(2 * pairs.size());
+    std::vector<std::array<std::uint8_t, 2>> curvatures;
+    curvatures.reserve(surfels.size());
+    for (const Surfel& s : surfels)
+      curvatures.push_back(
+          {Pair_curvatures::quantise(s.minimal_curvature), Pair_curvatures::quantise(s.maximal_curvature)});
+    std::vector<std::uint32_t> next(m_offsets.begin(), m_offsets.end() - 1);
+    for (const Found_pair& p : pairs) {
+      const auto &k = curvatures[p.first], &l = curvatures[p.second];
+      m_entries[next[p.bin]++] = {{{k[0], k[1], l[0], l[1]}}, p.first, p.second};
+      m_entries[next[p.reversed_bin]++] = {{{l[0], l[1], k[0], k[1]}}, p.second, p.first};
+    }
+  }
+
+  std::size_t size() const { return m_entries.size(); }
+
+  // f(begin, end) for the runs of entries whose angles are close to `angles`: in each of the three the bin it is in and
+  // the nearer neighbour.
+  template <class Function>
+  void for_each_run(const Pair_angles& angles, Function&& f) const
+  {
+    for (const int i : two_bins(angles.first * (float(angle_bins) / pi))) {
+      if (i < 0 || i >= angle_bins) continue;
+      for (const int j : two_bins(angles.second * (float(angle_bins) / pi))) {
+        if (j < 0 || j >= angle_bins) continue;
+        for (const int k : two_bins((angles.turn + pi) * (float(turn_bins) / (2 * pi)))) {
+          const std::size_t c = bin(i, j, (k + turn_bins) % turn_bins);
+          f(m_entries.data() + m_offsets[c], m_entries.data() + m_offsets[c + 1]);
+        }
+      }
+    }
+  }
+
+  std::size_t count(const Pair_angles& angles) const
+  {
+    std::size_t n = 0;
+    for_each_run(angles, [&](const Entry* from, const Entry* to) { n += std::size_t(to - from); });
+    return n;
+  }
+
+private:
+  static constexpr float pi = 3.14159265f;
+  static constexpr int angle_bins = 15, turn_bins = 20; // 12 and 18 degrees
+  static constexpr std::size_t bins = std::size_t(angle_bins) * angle_bins * turn_bins;
+
+  static std::array<int, 2> two_bins(float x)
+  {
+    const int b = int(std::floor(x - 0.5f));
+    return {b, b + 1};
+  }
+  static std::size_t bin(int i, int j, int k)
+  {
+    return (std::size_t(i) * angle_bins + std::size_t(j)) * turn_bins + std::size_t(k);
+  }
+  // The bins by comparison with the cosines of their limits: no angle is computed.
+  static int angle_bin(float cosine)
+  {
+    // cos 12, 24, ..., 84 degrees
+    constexpr float limits[] = {0.97814760f, 0.91354546f, 0.80901699f, 0.66913061f, 0.5f, 0.30901699f, 0.10452846f};
+    int b = 0;
+    for (const float limit : limits) b += std::abs(cosine) < limit;
+    return cosine < 0 ? angle_bins - 1 - b : b;
+  }
+  static int turn_bin(float cosine, float sine)
+  {
+    constexpr float tan_18 = 0.32491970f, tan_36 = 0.72654253f;
+    const float x = std::abs(cosine), y = std::abs(sine), low = (std::min)(x, y), high = (std::max)(x, y);
+    int b = (low >= tan_18 * high) + (low >= tan_36 * high);
+    if (y > x) b = turn_bins / 4 - 1 - b;
+    if (cosine < 0) b = turn_bins / 2 - 1 - b;
+    return sine < 0 ? turn_bins / 2 - 1 - b : turn_bins / 2 + b;
+  }
+  static std::size_t bin(const Pair_cosines& c)
+  {
+    return bin(angle_bin(c.first), angle_bin(c.second), turn_bin(c.turn, c.sine_of_turn));
+  }
+
+  std::vector<std::uint32_t> m_offsets;
+  std::vector<Entry> m_entries;
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_PAIR_INDEX_H

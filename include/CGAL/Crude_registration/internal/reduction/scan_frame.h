@@ -1,0 +1,154 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_SCAN_FRAME_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_SCAN_FRAME_H
+
+#include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The centre of the points' axis-parallel bounding box: an origin at which coordinates lose nothing to rounding.
+inline Vector centre_of_box(const std::vector<Vector>& points)
+{
+  Vector low = Vector::Constant((std::numeric_limits<double>::max)()), high = -low;
+  for (const Vector& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return points.empty() ? Vector(Vector::Zero()) : Vector(0.5 * low + 0.5 * high);
+}
+
+// The motion into the frame of rows x, y = z x x, z and of the given origin. x and z: perpendicular unit vectors.
+inline Rigid_motion frame_of_axes(const Vector& x, const Vector& z, const Vector& origin)
+{
+  Rigid_motion frame;
+  frame.rotation.row(0) = x;
+  frame.rotation.row(1) = z.cross(x);
+  frame.rotation.row(2) = z;
+  frame.translation = -(frame.rotation * origin);
+  return frame;
+}
+
+// The motion from a scan's coordinates into a frame of the scan's own, which moves with the scan: computed from a moved
+// scan it gives the same coordinates up to rounding, and every quantity that depends on axes is to be taken in it.
+//
+// The origin is the surface's centroid. z, the depth axis, points towards the viewer: against `viewing_direction` where
+// that is not null, along the mean normal otherwise, and where the normals cancel (closed meshes: a mean of less than a
+// tenth) along the axis of least variance. x is the direction of largest variance in the image plane perpendicular to
+// z. Signs that the normals do not fix are such that the third moment is positive. All moments are integrals over the
+// surface. On a surface of revolution seen along its axis, x has no meaning, on a symmetric one its sign has none.
+// `areas`: of the faces. \throws Run_control::Stopped
+inline Rigid_motion scan_frame(const Flat_mesh& mesh, const std::vector<double>& areas, const Vector& viewing_direction,
+                               Run_control& control = to_the_end())
+{
+  const Vector centre = centre_of_box(mesh.points);
+  double area = 0;
+  Vector normal = Vector::Zero(), first = Vector::Zero();
+  Matrix second = Matrix::Zero();
+  const auto corner = [&](std::size_t face, std::size_t k) -> Vector {
+    return mesh.points[std::size_t(mesh.faces[face][k])] - centre;
+  };
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    control.check(i);
+    const Vector a = corner(i, 0), b = corner(i, 1), c = corner(i, 2), sum = a + b + c;
+    area += areas[i];
+    normal += 0.5 * area_vector(a, b, c);
+    first += (areas[i] / 3) * sum;
+    second += (areas[i] / 12) * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+  }
+  if (!(area > 0)) return frame_of_axes(Vector::UnitX(), Vector::UnitZ(), centre);
+  const Vector centroid = first / area;
+  const Matrix covariance = second / area - centroid * centroid.transpose();
+
+  // The sign of the third moment along an axis, faces taken as points.
+  const auto skewness = [&](const Vector& axis) {
+    double moment = 0;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      control.check(i);
+      const double t = axis.dot((corner(i, 0) + corner(i, 1) + corner(i, 2)) / 3 - centroid);
+      moment += areas[i] * t * t * t;
+    }
+    return moment;
+  };
+
+  Vector z = -unit_or_zero(viewing_direction);
+  if (z.isZero()) {
+    if (normal.norm() >= 0.1 * area) {
+      z = normal.normalized();
+    } else {
+      z = symmetric_eigen(covariance).vectors.col(0);
+      if (skewness(z) < 0) z = -z;
+    }
+  }
+  const Tangent_frame plane(z);
+  Curvature_tensor projected; // any symmetric form in a tangent frame
+  projected.uu = plane.u.dot(covariance * plane.u);
+  projected.uv = plane.u.dot(covariance * plane.v);
+  projected.vv = plane.v.dot(covariance * plane.v);
+  const std::array<double, 2> major = projected.direction_of_maximum();
+  Vector x = major[0] * plane.u + major[1] * plane.v;
+  if (skewness(x) < 0) x = -x;
+  return frame_of_axes(x, z, centre + centroid);
+}
+
+inline Rigid_motion scan_frame(const Flat_mesh& mesh, const Vector& viewing_direction = Vector::Zero())
+{
+  return scan_frame(mesh, face_areas(mesh), viewing_direction);
+}
+
+// The edge lengths, along the axes of `frame`, of the box that contains the vertices of the faces.
+// \throws Run_control::Stopped
+inline Vector extent_in_frame(const Flat_mesh& mesh, const Rigid_motion& frame, Run_control& control = to_the_end())
+{
+  std::vector<std::uint8_t> has_face(mesh.points.size(), 0);
+  for (const auto& f : mesh.faces)
+    for (std::int32_t v : f) has_face[std::size_t(v)] = 1;
+  Vector low = Vector::Constant((std::numeric_limits<double>::max)()), high = -low;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    control.check(i);
+    if (!has_face[i]) continue;
+    const Vector p = frame(mesh.points[i]);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return mesh.faces.empty() ? Vector(Vector::Zero()) : Vector(high - low);
+}
+
+// The median length of the edges, those inside counted twice. On the triangulation of a range image this is close to
+// the larger of the distances along rows and columns.
+inline double median_edge_length(const Flat_mesh& mesh)
+{
+  std::vector<double> lengths2;
+  lengths2.reserve(3 * mesh.faces.size());
+  for (const auto& f : mesh.faces)
+    for (std::size_t k = 0; k < 3; ++k)
+      lengths2.push_back((mesh.points[std::size_t(f[k])] - mesh.points[std::size_t(f[(k + 1) % 3])]).squaredNorm());
+  if (lengths2.empty()) return 0;
+  const auto middle = lengths2.begin() + std::ptrdiff_t(lengths2.size() / 2);
+  std::nth_element(lengths2.begin(), middle, lengths2.end());
+  return std::sqrt(*middle);
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_SCAN_FRAME_H

@@ -1,0 +1,183 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_REDUCTION_SURFACE_TYPES_H
+#define CGAL_CRUDE_REGISTRATION_REDUCTION_SURFACE_TYPES_H
+
+#include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/named_parameters.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+
+/// \ingroup PkgCrudeRegistrationRef
+/// the type of a surface at a point by its principal curvatures.
+enum Surface_type
+{
+  PLANAR,    ///< both are zero
+  PARABOLIC, ///< one is zero
+  ELLIPTIC,  ///< they have the same sign
+  HYPERBOLIC ///< they have opposite signs
+};
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief the type of a surface with the given principal curvatures.
+ *
+ * A curvature of absolute value at most `tolerance` (in 1/length) counts as zero. With a tolerance of 0 the type is
+ * that of the sign of the Gaussian curvature, and on measured data, where no curvature is ever exactly zero, elliptic
+ * or hyperbolic.
+ */
+template <class FT>
+Surface_type surface_type(const FT& minimum, const FT& maximum, const FT& tolerance = FT(0))
+{
+  const int signs[] = {minimum > tolerance ? 1 : (minimum < -tolerance ? -1 : 0),
+                       maximum > tolerance ? 1 : (maximum < -tolerance ? -1 : 0)};
+  if (signs[0] == 0 && signs[1] == 0) return PLANAR;
+  if (signs[0] == 0 || signs[1] == 0) return PARABOLIC;
+  return signs[0] == signs[1] ? ELLIPTIC : HYPERBOLIC;
+}
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief how many vertices of a mesh are of which type.
+ */
+struct Surface_type_counts
+{
+  std::size_t planar = 0, parabolic = 0, elliptic = 0, hyperbolic = 0;
+
+  void add(Surface_type type)
+  {
+    switch (type) {
+    case PLANAR:
+      ++planar;
+      break;
+    case PARABOLIC:
+      ++parabolic;
+      break;
+    case ELLIPTIC:
+      ++elliptic;
+      break;
+    case HYPERBOLIC:
+      ++hyperbolic;
+      break;
+    }
+  }
+
+  /// the paper's smoothness: the share of the vertices that are not hyperbolic, in percent; 100 without any vertex.
+  double percent_smooth() const
+  {
+    const std::size_t smooth = planar + parabolic + elliptic, all = smooth + hyperbolic;
+    return all == 0 ? 100.0 : 100.0 * double(smooth) / double(all);
+  }
+};
+
+namespace internal {
+
+// Above this radius of curvature, as a multiple of the mesh's size, a surface counts as flat: far above the curvatures
+// that the rounding of double gives the vertices of a plane, far below what noise gives those of a scan.
+constexpr double flat_radius = 1e6;
+
+// The curvature at most which a surface of this mesh counts as flat. The size is twice the root mean square distance of
+// the vertices from their centroid: it does not depend on the frame.
+inline double flat_curvature(const Flat_mesh& mesh)
+{
+  if (mesh.points.empty()) return 0;
+  const auto n = double(mesh.points.size());
+  const Vector& reference = mesh.points.front();
+  Vector mean = Vector::Zero();
+  for (const Vector& p : mesh.points) mean += p - reference;
+  mean /= n;
+  double squares = 0;
+  for (const Vector& p : mesh.points) squares += (p - reference - mean).squaredNorm();
+  return squares > 0 ? 1 / (flat_radius * 2 * std::sqrt(squares / n)) : 0;
+}
+
+// Vertices without a face of positive area do not count.
+inline Surface_type_counts count_surface_types(const Curvature_field& field, double tolerance)
+{
+  Surface_type_counts counts;
+  for (std::size_t i = 0; i < field.tensors.size(); ++i)
+    if (field.areas[i] > 0) counts.add(surface_type(field.tensors[i].minimum(), field.tensors[i].maximum(), tolerance));
+  return counts;
+}
+
+} // namespace internal
+
+/*!
+ * \ingroup PkgCrudeRegistrationRef
+ *
+ * \brief finds the surface type of every vertex of a triangle mesh, and counts them.
+ *
+ * On scans the types are those of the sign of the Gaussian curvature, elliptic and hyperbolic: noise leaves no
+ * curvature within the default tolerance, which only keeps rounding from giving exact planes and cylinders random
+ * types. To find the planes and cylinders of measured data, average the curvatures (`neighbor_radius`) and give a
+ * tolerance above what noise is left. Linear in the size of the mesh.
+ *
+ * \tparam FaceGraph a model of `FaceListGraph`
+ * \tparam VertexTypeMap a model of `WritablePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor` as
+ * key type and `Surface_type` as value type
+ * \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+ *
+ * \param mesh the mesh
+ * \param type_map receives the type of every vertex; `PLANAR` for those without a face of positive area, which are not
+ * counted
+ * \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor`
+ *                    as key type and a `Point_3` as value type}
+ *     \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{tolerance}
+ *     \cgalParamDescription{the absolute value, in 1/length, up to which a curvature counts as zero}
+ *     \cgalParamType{`double`, zero or above}
+ *     \cgalParamDefault{that of a radius of a million times the size of the mesh (twice the root mean square distance
+ *                       of the vertices from their centroid)}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{neighbor_radius}
+ *     \cgalParamDescription{as for `principal_curvatures()`}
+ *     \cgalParamType{`double`, zero or above}
+ *     \cgalParamDefault{`0`}
+ *     \cgalParamExtra{a name of `CGAL::parameters`}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
+ *
+ * \throws std::invalid_argument as `principal_curvatures()`, and if the tolerance is negative or not finite.
+ */
+template <class FaceGraph, class VertexTypeMap, class NamedParameters = parameters::Default_named_parameters>
+Surface_type_counts surface_types(const FaceGraph& mesh, VertexTypeMap type_map,
+                                  const NamedParameters& np = parameters::default_values())
+{
+  const internal::Flat_mesh flat = internal::to_flat_mesh(mesh, np, "surface_types", "mesh");
+  const double tolerance = internal::non_negative_parameter(np, internal_np::tolerance, internal::flat_curvature(flat),
+                                                            "surface_types", "tolerance");
+  const double radius =
+      internal::non_negative_parameter(np, internal_np::neighbor_radius, 0.0, "surface_types", "neighbor_radius");
+  internal::Curvature_field field = internal::curvature_tensors(flat);
+  if (radius > 0) field.tensors = internal::average_tensors(flat, field, radius);
+  std::size_t i = 0;
+  for (auto v : vertices(mesh)) {
+    const internal::Curvature_tensor& t = field.tensors[i++];
+    put(type_map, v, surface_type(t.minimum(), t.maximum(), tolerance));
+  }
+  return internal::count_surface_types(field, tolerance);
+}
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_REDUCTION_SURFACE_TYPES_H

@@ -1,0 +1,67 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_SIMULATION_MAKE_STATUE_H
+#define CGAL_CRUDE_REGISTRATION_SIMULATION_MAKE_STATUE_H
+
+#include <CGAL/Crude_registration/internal/simulation/Statue.h>
+#include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
+#include <CGAL/Crude_registration/named_parameters.h>
+
+#include <cstdint>
+#include <stdexcept>
+
+namespace CGAL {
+namespace Crude_registration {
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief makes a body without any symmetry, as the object of simulated scans: torso, head, horns, bent limbs, bumps,
+hollows and a fine relief, all of which occlude each other.
+
+The mesh is closed, oriented outwards, connected and made of triangles. It is about 2 units tall along the z-axis, and
+its center is near the origin. The number of faces grows as the square of `resolution`: about 95,000 for 96. The mesh is
+the same, bit by bit, for the same `resolution` and seed.
+
+\tparam FaceGraph a model of `MutableFaceGraph`
+\tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+\param mesh the output; the body is added to what it holds
+\param resolution the number of lattice cells along the longest side of the body, from 8 to 1000. The time is its cube
+(0.3 seconds for 96), the memory its square.
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{random_seed}
+    \cgalParamDescription{says which of the bodies to make}
+    \cgalParamType{unsigned int}
+    \cgalParamDefault{`0`}
+  \cgalParamNEnd
+  \cgalParamNBegin{vertex_point_map}
+    \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+    \cgalParamType{a class model of `ReadWritePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor`
+                   as key type and a `Point_3` as value type}
+    \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+
+\throws std::invalid_argument if `resolution` is out of range.
+*/
+template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
+void make_statue(FaceGraph& mesh, int resolution, const NamedParameters& np = parameters::default_values())
+{
+  if (resolution < 8 || resolution > 1000)
+    throw std::invalid_argument("make_statue: resolution has to be from 8 to 1000");
+  const auto seed = static_cast<std::uint64_t>(internal::parameter(np, internal_np::random_seed, 0u));
+  internal::add_flat_mesh(internal::Statue(seed).surface(resolution), mesh, np);
+}
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_SIMULATION_MAKE_STATUE_H
