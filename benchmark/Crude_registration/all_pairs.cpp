@@ -13,14 +13,9 @@
 
 #include "moved_scan.h"
 
-#include <CGAL/Crude_registration/reduction/approximation_error.h>
-#include <CGAL/Crude_registration/internal/matching/Trihedron_search.h>
 #include <CGAL/Crude_registration/IO/internal/atomic_file.h>
+#include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
 #include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/reduction/simplify_scan.h>
-#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
-
-#include <CGAL/Surface_mesh.h>
 
 #include <Eigen/Geometry>
 
@@ -48,15 +43,14 @@ namespace {
 
 struct Method
 {
-  bool is_paper = false;
-  double f1 = 0, f2 = 0.3; // of the paper's
+  bool is_trihedra = false;
+  double f1 = 0, f2 = 0.3;
   std::optional<Kernel::Point_3> viewpoint;
 };
 
 struct Moved_scan
 {
   std::optional<CR::Scan<Kernel>> scan;
-  CR::internal::Simplified_scan simplified; // of the paper's method
   CR::internal::Rigid_motion moved_from_file;
   double seconds = 0;
 };
@@ -72,25 +66,9 @@ double seconds_since(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The S- or D-mesh of the paper.
-template <class NamedParameters>
-CR::internal::Simplified_scan simplify(const CR::Scan_file<Kernel>& file, const CR::Scan<Kernel>& scan,
-                                       const NamedParameters& np)
+auto trihedra(const Method& method)
 {
-  CGAL::Surface_mesh<Kernel::Point_3> mesh = file.mesh;
-  if (file.kind == CR::Scan_file<Kernel>::RANGE_IMAGE) CR::triangulate_range_image(file.image, mesh);
-  if (file.kind == CR::Scan_file<Kernel>::POINTS) CR::triangulate_points(file.points, mesh, np);
-  const double epsilon = file.kind == CR::Scan_file<Kernel>::RANGE_IMAGE ? CR::approximation_error(file.image)
-                                                                         : CR::approximation_error(mesh, np);
-  const auto flat = [&mesh] {
-    return CR::internal::to_flat_mesh(mesh, CR::parameters::default_values(), "all_pairs", "mesh");
-  };
-  const CR::internal::Flat_mesh dense = flat();
-  CR::simplify_scan(mesh, CR::parameters::approximation_error(epsilon));
-  mesh.collect_garbage();
-  auto simplified = CR::internal::simplified_scan(scan.prepared(), flat(), dense, CR::internal::vertex_normals(dense));
-  simplified.extent = scan.extent();
-  return simplified;
+  return CR::parameters::candidates(CR::Trihedron_candidates()).minimum_extent(method.f1).maximum_extent(method.f2);
 }
 
 Moved_scan read_and_prepare(const std::string& path, const std::string& name, const Method& method)
@@ -101,12 +79,11 @@ Moved_scan read_and_prepare(const std::string& path, const std::string& name, co
   moved.moved_from_file = read.moved_from_file;
 
   const auto start = std::chrono::steady_clock::now();
-  const auto prepare = [&](const auto& np) {
-    moved.scan.emplace(file, np, path);
-    if (method.is_paper) moved.simplified = simplify(file, *moved.scan, np);
-  };
-  if (method.viewpoint && file.kind != CR::Scan_file<Kernel>::RANGE_IMAGE)
-    prepare(CR::parameters::viewpoint(read.moved(*method.viewpoint)));
+  const auto prepare = [&](const auto& np) { moved.scan.emplace(file, np, path); };
+  const bool has_viewpoint = method.viewpoint && file.kind != CR::Scan_file<Kernel>::RANGE_IMAGE;
+  if (method.is_trihedra && has_viewpoint) prepare(trihedra(method).viewpoint(read.moved(*method.viewpoint)));
+  else if (method.is_trihedra) prepare(trihedra(method));
+  else if (has_viewpoint) prepare(CR::parameters::viewpoint(read.moved(*method.viewpoint)));
   else prepare(CR::parameters::default_values());
   moved.seconds = seconds_since(start);
   return moved;
@@ -114,27 +91,9 @@ Moved_scan read_and_prepare(const std::string& path, const std::string& name, co
 
 CR::Registration_result<Kernel> register_pair(const Moved_scan& source, const Moved_scan& target, const Method& method)
 {
-  if (!method.is_paper) return CR::register_scans(*source.scan, *target.scan);
-  const CR::internal::Prepared_scan &a = source.scan->prepared(), &b = target.scan->prepared();
-  CR::internal::Trihedron_search_parameters parameters;
-  parameters.minimum_extent = method.f1;
-  parameters.maximum_extent = method.f2;
-  const auto found =
-      CR::internal::Trihedron_search<CGAL::Sequential_tag>(a, source.simplified, b, target.simplified, parameters)();
-  CR::Registration_result<Kernel>::Parts parts;
-  if (!found.is_found) {
-    parts.reason = "no trihedron of the source has a counterpart";
-    return CR::Registration_result<Kernel>(parts);
-  }
-  const auto to_input = [&](const CR::internal::Rigid_motion& m) {
-    return CR::internal::to_aff_transformation<Kernel>(b.own_from_input.inverse() * m * a.own_from_input);
-  };
-  parts.status = CR::REGISTERED;
-  parts.score = found.score;
-  parts.confidence = 0.5;
-  parts.transformation = to_input(found.refined_motion);
-  parts.crude_transformation = to_input(found.crude_motion);
-  return CR::Registration_result<Kernel>(parts);
+  if (method.is_trihedra) return CR::register_scans(*source.scan, *target.scan, trihedra(method));
+  return CR::register_scans(*source.scan, *target.scan,
+                            CR::parameters::minimum_extent(method.f1).maximum_extent(method.f2));
 }
 
 // f(0) .. f(n - 1), by some threads; each writes what is its own. The first exception is thrown again.
@@ -156,6 +115,13 @@ void for_each_index(std::size_t n, unsigned threads, Function f)
   for (std::thread& w : workers) w.join();
   for (const std::exception_ptr& e : errors)
     if (e) std::rethrow_exception(e);
+}
+
+std::size_t number_of_iterations(const CR::Registration_result<Kernel>& result)
+{
+  for (const auto& stage : result.statistics())
+    if (stage.name == "refine") return stage.count;
+  return 0;
 }
 
 void write(std::ostream& out, const std::vector<Pair>& pairs, const std::vector<Answer>& answers,
@@ -180,7 +146,7 @@ void write(std::ostream& out, const std::vector<Pair>& pairs, const std::vector<
         << prepare + answers[k].seconds << ',' << prepare << ',' << answers[k].seconds << ',' << r.overlap() << ','
         << r.residual() << ',' << r.free_space_violations() << ',' << r.score() << ','
         << (r.runners_up().empty() ? 0 : r.runners_up().front().score) << ',' << crude_degrees << ','
-        << (r.statistics().empty() ? 0 : r.statistics().back().count);
+        << number_of_iterations(r);
     const auto in_files = target.moved_from_file.inverse() * motion * source.moved_from_file;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 4; ++j) {
@@ -204,13 +170,14 @@ int main(int argc, char** argv)
     options.add_options()("help,h", "this text")("pairs", po::value(&pairs_file)->required(),
                                                  "CSV file whose first two columns are source,target")(
         "scans", po::value(&scans_folder)->required(), "folder the file names in the pairs are relative to")(
-        "output", po::value(&output)->required(),
-        "CSV file to write")("method", po::value(&method_name)->default_value("default"), "default or paper")(
-        "f1", po::value(&method.f1)->default_value(method.f1), "least arm of a trihedron, paper's method")(
-        "f2", po::value(&method.f2)->default_value(method.f2), "greatest arm of a trihedron, paper's method")(
-        "threads", po::value(&threads)->default_value(1),
-        "pairs worked on at a time")("viewpoint", po::value(&viewpoint_text),
-                                     "x,y,z: where scans without a grid were seen from, in their own frame");
+        "output", po::value(&output)->required(), "CSV file to write")(
+        "method", po::value(&method_name)->default_value("pairs"),
+        "pairs (of oriented points) or trihedra (the paper)")("f1", po::value(&method.f1)->default_value(method.f1),
+                                                              "least length of a pair, or of an arm of a trihedron")(
+        "f2", po::value(&method.f2)->default_value(method.f2),
+        "greatest length")("threads", po::value(&threads)->default_value(1), "pairs worked on at a time")(
+        "viewpoint", po::value(&viewpoint_text),
+        "x,y,z: where scans without a grid were seen from, in their own frame");
     po::variables_map values;
     po::store(po::parse_command_line(argc, argv, options), values);
     if (values.count("help")) {
@@ -220,9 +187,9 @@ int main(int argc, char** argv)
     po::notify(values);
     threads = (std::max)(threads, 1u);
     method.viewpoint = benchmark_tools::read_point(viewpoint_text);
-    if (method_name != "default" && method_name != "paper")
-      throw std::runtime_error("--method has to be default or paper, not " + method_name);
-    method.is_paper = method_name == "paper";
+    if (method_name != "pairs" && method_name != "trihedra")
+      throw std::runtime_error("--method has to be pairs or trihedra, not " + method_name);
+    method.is_trihedra = method_name == "trihedra";
 
     const std::vector<Pair> pairs = benchmark_tools::read_pairs(pairs_file);
     std::map<std::string, std::size_t> index;

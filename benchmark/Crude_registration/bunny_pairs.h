@@ -13,7 +13,7 @@
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
-#include <CGAL/Crude_registration/internal/reduction/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 #include <CGAL/Crude_registration/internal/matching/Trihedron_search.h>
 #include <CGAL/Crude_registration/motion/refine_motion.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
@@ -52,7 +52,7 @@ struct Dense_scan
   Mesh mesh;
   CR::internal::Flat_mesh flat;
   std::vector<Vector> normals;
-  CR::internal::Prepared_scan prepared;
+  CR::internal::Reduced_scan prepared;
   double approximation_error = 0;
   double extent = 0; // M
 };
@@ -68,7 +68,7 @@ inline Dense_scan read_scan(const std::string& folder, const std::string& name)
   scan.extent = CR::scan_extent(image).mean();
   scan.flat = CR::internal::to_flat_mesh(scan.mesh, CR::parameters::default_values(), "read_scan", "mesh");
   scan.normals = CR::internal::vertex_normals(scan.flat);
-  scan.prepared = CR::internal::prepare_scan(scan.flat, CR::internal::to_flat_sensor(image.sensor()));
+  scan.prepared = CR::internal::reduce_scan(scan.flat, CR::internal::to_flat_sensor(image.sensor()));
   return scan;
 }
 

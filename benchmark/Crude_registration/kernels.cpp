@@ -151,7 +151,7 @@ CR::internal::Pose_search<> search_of(const Input& in)
 
 void index_of_pairs(benchmark::State& state)
 {
-  const CR::internal::Prepared_scan& target = input(state).target_scan.prepared();
+  const CR::internal::Reduced_scan& target = input(state).target_scan.prepared();
   const CR::internal::Search_parameters parameters;
   const float length = parameters.rounds.front().scales.front() * float(target.extent),
               half_width = parameters.target_half_width * target.coarse.spacing;

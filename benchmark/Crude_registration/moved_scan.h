@@ -12,7 +12,8 @@
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/internal/matching/Pose_search.h>
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/motion/rigid_motion.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

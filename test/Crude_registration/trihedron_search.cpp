@@ -40,7 +40,7 @@ namespace CR = CGAL::Crude_registration;
 using CR::internal::Flat_mesh;
 using CR::internal::Matrix;
 using CR::internal::Motion_evaluation;
-using CR::internal::Prepared_scan;
+using CR::internal::Reduced_scan;
 using CR::internal::Rigid_motion;
 using CR::internal::Simplified_scan;
 using CR::internal::Trihedron_search_result;
@@ -55,13 +55,13 @@ struct Scan
   Flat_mesh dense;
   CR::internal::Flat_sensor sensor;
   Flat_mesh simplified_mesh;
-  Prepared_scan prepared;
+  Reduced_scan prepared;
   Simplified_scan simplified;
 };
 
 void prepare(Scan& scan)
 {
-  scan.prepared = CR::internal::prepare_scan(scan.dense, scan.sensor);
+  scan.prepared = CR::internal::reduce_scan(scan.dense, scan.sensor);
   scan.simplified = CR::internal::simplified_scan(scan.prepared, scan.simplified_mesh, scan.dense,
                                                   CR::internal::vertex_normals(scan.dense));
 }

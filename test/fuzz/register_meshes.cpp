@@ -48,14 +48,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Byte_reader bytes(data, size);
   const double unit = std::pow(10., std::int8_t(bytes.next()) / 12); // 1e-10 .. 1e10
   const Mesh a = to_mesh(bytes.mesh(), unit), b = to_mesh(bytes.mesh(), unit);
-  CR::internal::Preparation_parameters few;
+  CR::internal::Reduction_parameters few;
   few.fine_surfels = 300;
   few.coarse_surfels = 60;
   const auto prepared = [&](const Mesh& mesh) {
-    return CR::internal::prepare_scan(CR::internal::to_flat_mesh(mesh, CR::parameters::default_values(), "", ""),
+    return CR::internal::reduce_scan(CR::internal::to_flat_mesh(mesh, CR::parameters::default_values(), "", ""),
                                       CR::internal::Flat_sensor(), few);
   };
-  const CR::internal::Prepared_scan source = prepared(a), target = prepared(b);
+  const CR::internal::Reduced_scan source = prepared(a), target = prepared(b);
   if (source.number_of_samples == 0 || target.number_of_samples == 0) return 0;
   CR::internal::Search_parameters short_search;
   for (CR::internal::Search_round& round : short_search.rounds) {

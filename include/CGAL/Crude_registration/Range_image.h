@@ -9,7 +9,6 @@
 #define CGAL_CRUDE_REGISTRATION_RANGE_IMAGE_H
 
 #include <CGAL/Crude_registration/Sensor.h>
-#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
 
 #include <CGAL/number_utils.h>
 
@@ -156,26 +155,6 @@ void transform(Range_image<Kernel>& image, const typename Kernel::Aff_transforma
 {
   for (auto& p : image.m_points) p = p.transform(motion);
   image.m_sensor = image.m_sensor.transformed(motion);
-}
-
-/*!
-\ingroup PkgCrudeRegistrationRef
-
-\brief returns the sampling distance \f$ s \f$ of a range image, in the unit of its points.
-
-It is the larger of the two medians, along rows and along columns, of the distances between adjacent samples, measured
-in the image plane: perpendicular to the lines of sight of the image's sensor. The distances of a perspective sensor
-grow with the range; \f$ s \f$ is then the distance at the median range. Where the sensor is unknown, the distances are
-measured in space.
-
-\return \f$ s \f$; 0 if no two adjacent cells have samples apart from each other
-
-Complexity: linear in the number of cells.
-*/
-template <class Kernel>
-double sampling_distance(const Range_image<Kernel>& image)
-{
-  return internal::sampling(internal::Flat_range_image(image)).distance;
 }
 
 } // namespace Crude_registration

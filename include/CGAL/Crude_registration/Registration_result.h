@@ -8,51 +8,20 @@
 #ifndef CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
 #define CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
 
+#include <CGAL/Crude_registration/Registration_status.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/assertions.h>
 
-#include <Eigen/Core>
-
+#include <array>
 #include <cstddef>
-#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
-
-/*!
-\ingroup PkgCrudeRegistrationRef
-
-What came out of a registration.
-*/
-enum Registration_status
-{
-  REGISTERED,    ///< one motion explains the scans, and it is certain
-  AMBIGUOUS,     ///< several distinct motions, or a family of motions, explain the scans about as well
-  NOT_REGISTERED ///< no motion found that can be believed
-};
-
-/*!
-\ingroup PkgCrudeRegistrationRef
-
-Writes `registered`, `ambiguous` or `not_registered`.
-*/
-inline std::ostream& operator<<(std::ostream& out, Registration_status status)
-{
-  switch (status) {
-  case REGISTERED:
-    return out << "registered";
-  case AMBIGUOUS:
-    return out << "ambiguous";
-  case NOT_REGISTERED:
-    break;
-  }
-  return out << "not_registered";
-}
 
 /*!
 \ingroup PkgCrudeRegistrationRef
@@ -74,6 +43,9 @@ public:
 
   /// The type of the transformations.
   using Transformation = Aff_transformation_3<Kernel>;
+
+  /// The type of the covariance of a motion: six rows of six numbers.
+  using Covariance = std::array<std::array<double, 6>, 6>;
 
   /// A motion that was considered, with its score: the larger, the better; comparable within one result only.
   struct Scored_motion
@@ -104,7 +76,7 @@ public:
     double free_space_violations = 0;
     bool source_has_free_space = false;
     bool target_has_free_space = false;
-    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    Covariance covariance{};
     std::vector<std::string> free_motions;
     std::vector<Scored_motion> runners_up;
     std::vector<Stage> statistics;
@@ -136,15 +108,15 @@ public:
     return internal::to_aff_transformation<Kernel>(internal::to_rigid_motion(m_parts.transformation).inverse());
   }
 
-  /// transformation() before its refinement: what the correspondences of the simplified scans gave.
+  /// transformation() as it was proposed, before any refinement: what the correspondences of the reduced scans gave.
   const Transformation& crude_transformation() const { return m_parts.crude_transformation; }
 
   /// The probability, in [0,1], that transformation() is right; at most 1/n where n distinct motions are equally good,
   /// at most 1/2 where the overlap leaves motions free. At least 0.9 if and only if `REGISTERED`.
   double confidence() const { return m_parts.confidence; }
 
-  /// What transformation() scored, comparable with the scores of the runners-up: the share of the surface that it
-  /// brings together to within the scans' noise, less twice what violates free space.
+  /// What transformation() scores: the share of the surface that it brings together to within the scans' noise, less
+  /// twice what violates free space.
   double score() const { return m_parts.score; }
 
   /// The share of the source's surface that has the target close by, with its normal, under transformation().
@@ -153,11 +125,12 @@ public:
   /// The RMS distance between the scans where they overlap, along the normals, in sampling distances.
   double residual() const { return m_parts.residual; }
 
-  /// The share of either scan's surface that lies, under transformation(), where the other one's sensor saw nothing.
+  /// The share of the source's surface that lies, under transformation(), where the target's sensor saw that there is
+  /// nothing, plus that of the target's surface: from 0 to 2.
   double free_space_violations() const { return m_parts.free_space_violations; }
 
   /// Whether what the source's sensor saw to be empty was judged: not where its sensor is unknown and its surface is
-  /// closed or seen from several sides, nor by the paper's method.
+  /// closed or seen from several sides.
   bool source_has_free_space() const { return m_parts.source_has_free_space; }
 
   /// The same of the target.
@@ -166,7 +139,7 @@ public:
   /// The covariance of the small motion \f$ x \rightarrow x + \omega \times x + v \f$ that follows transformation(), in
   /// the order \f$ (\omega_x, \omega_y, \omega_z, v_x, v_y, v_z) \f$: radians about the axes through the origin of the
   /// target's frame, and the displacement in the unit of its coordinates.
-  const Eigen::Matrix<double, 6, 6>& covariance() const { return m_parts.covariance; }
+  const Covariance& covariance() const { return m_parts.covariance; }
 
   /// The names of the motions that the overlap leaves free, such as a turn about an axis.
   const std::vector<std::string>& free_motions() const { return m_parts.free_motions; }
@@ -174,7 +147,8 @@ public:
   /// The best motions that are distinct from transformation() and from each other, best first.
   const std::vector<Scored_motion>& runners_up() const { return m_parts.runners_up; }
 
-  /// What each stage did, in their order.
+  /// What each stage did, in their order: `reduce` (samples of both scans), `propose` (rounds), its parts, whose names
+  /// start with `propose:`, `judge` (motions looked at closely), `refine` (iterations), `conclude` (distinct motions).
   const std::vector<Stage>& statistics() const { return m_parts.statistics; }
 
 private:

@@ -8,22 +8,30 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SCAN_H
 #define CGAL_CRUDE_REGISTRATION_SCAN_H
 
+// A scan prepared for registration.
+
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/Sensor.h>
-#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
-#include <CGAL/Crude_registration/internal/sampling/Flat_triangulation.h>
-#include <CGAL/Crude_registration/internal/reduction/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_points.h>
+#include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
+#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/sampling/estimate_flat_sensor.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_point_triangulation.h>
 #include <CGAL/Crude_registration/named_parameters.h>
-#include <CGAL/Crude_registration/sampling/triangulate_points.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/property_map.h>
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -133,7 +141,7 @@ public:
         break;
       case Scan_file<Kernel>::MESH:
         prepare(internal::to_flat_mesh(file.mesh, parameters::default_values(), name, "it", control),
-                given_sensor(np, name), name, control);
+                internal::sensor_parameter(np, name), nullptr, np, name, control);
         break;
       case Scan_file<Kernel>::POINTS:
         prepare_points(file.points, np, name, control);
@@ -142,31 +150,31 @@ public:
   }
 
   /// the number of samples that take part.
-  std::size_t number_of_samples() const { return m_prepared.number_of_samples; }
+  std::size_t number_of_samples() const { return m_reduced.number_of_samples; }
 
   /// the root of the area per sample.
-  double spacing() const { return m_prepared.spacing; }
+  double spacing() const { return m_reduced.spacing; }
 
   /// the mean edge length \f$ M \f$ of the scan's box in a frame of the scan's own.
-  double extent() const { return m_prepared.extent; }
+  double extent() const { return m_reduced.extent; }
 
   /// whether free space is known, from the sensor or along the mean normal.
-  bool has_free_space() const { return m_prepared.depths.is_known(); }
+  bool has_free_space() const { return m_reduced.depths.is_known(); }
 
   /// \cond SKIP_IN_MANUAL
-  const internal::Prepared_scan& prepared() const { return m_prepared; }
+  const internal::Reduced_scan& reduced() const { return m_reduced; }
 
   // As a part of a longer run. \throws internal::Run_control::Stopped
-  template <class FaceGraph, class NamedParameters>
-  Scan(const FaceGraph& mesh, const NamedParameters& np, const std::string& name, internal::Run_control& control)
+  template <class FaceGraph, class NamedParameters, class Generator>
+  Scan(const FaceGraph& mesh, const NamedParameters& np, const Generator& generator, const std::string& name,
+       internal::Run_control& control)
   {
-    prepare_mesh(mesh, np, name, control);
+    prepare(internal::to_flat_mesh(mesh, np, name, "it", control), internal::sensor_parameter(np, name), nullptr, np,
+            generator, name, control);
   }
   /// \endcond
 
 private:
-  static constexpr double maximum_edge_ratio = 5; // as triangulate_range_image() and triangulate_points() have it
-
   template <class NamedParameters, class Function>
   static void within_limits(const NamedParameters& np, const std::string& name, const Function& f)
   {
@@ -182,7 +190,8 @@ private:
   void prepare_mesh(const FaceGraph& mesh, const NamedParameters& np, const std::string& name,
                     internal::Run_control& control)
   {
-    prepare(internal::to_flat_mesh(mesh, np, name, "it", control), given_sensor(np, name), name, control);
+    prepare(internal::to_flat_mesh(mesh, np, name, "it", control), internal::sensor_parameter(np, name), nullptr, np,
+            name, control);
   }
 
   template <class NamedParameters>
@@ -190,10 +199,11 @@ private:
                      internal::Run_control& control)
   {
     internal::Flat_range_image flat(image);
-    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = given_sensor(np, name);
-    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::Sensor_estimation(flat, control)();
-    prepare(internal::flat_triangulation(flat, internal::sampling(flat, control), maximum_edge_ratio, control),
-            flat.sensor, name, control);
+    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::sensor_parameter(np, name);
+    if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::estimated_sensor(flat, control);
+    prepare(internal::flat_triangulation(flat, internal::sampling(flat, control), internal::default_maximum_edge_ratio,
+                                         control),
+            flat.sensor, &flat, np, name, control);
   }
 
   template <class NamedParameters>
@@ -202,13 +212,27 @@ private:
   {
     const std::vector<internal::Vector> flat =
         internal::to_flat_points(points, CGAL::Identity_property_map<Point_3>(), name, "it", control);
-    const internal::Flat_sensor sensor = given_sensor(np, name);
-    prepare(internal::flat_triangulation(flat, sensor, maximum_edge_ratio, control), sensor, name, control);
+    const internal::Flat_sensor sensor = internal::sensor_parameter(np, name);
+    prepare(internal::flat_triangulation(flat, sensor, internal::default_maximum_edge_ratio, control), sensor, nullptr,
+            np, name, control);
   }
 
-  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor, const std::string& name,
+  // `image`: what `mesh` is the triangulation of, or null.
+  template <class NamedParameters>
+  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor,
+               const internal::Flat_range_image* image, const NamedParameters& np, const std::string& name,
                internal::Run_control& control)
   {
+    // Without candidates: any type that needs nothing.
+    prepare(mesh, sensor, image, np, internal::parameter(np, internal_np::candidates, 0), name, control);
+  }
+
+  template <class NamedParameters, class Generator>
+  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor,
+               const internal::Flat_range_image* image, const NamedParameters& np,
+               [[maybe_unused]] const Generator& generator, const std::string& name, internal::Run_control& control)
+  {
+    const auto start = std::chrono::steady_clock::now();
     control.check();
     // Squares of lengths are computed in float.
     constexpr double smallest = 1e-12, largest = 1e12;
@@ -216,29 +240,32 @@ private:
     for (const internal::Vector& p : mesh.points) size = (std::max)(size, (p - mesh.points.front()).norm());
     if (size > 0 && !(size > smallest && size < largest))
       throw std::invalid_argument(name + ": its size is not between 1e-12 and 1e12: another unit of length is needed");
-    m_prepared = internal::prepare_scan(mesh, sensor, {}, control);
-    if (m_prepared.number_of_samples == 0)
+    m_reduced = internal::reduce_scan(mesh, sensor, {}, control);
+    if (m_reduced.number_of_samples == 0)
       throw std::invalid_argument(name + " has no surface: there is no face of positive area that the sensor can see");
+    if constexpr (has_preparation<Generator, NamedParameters>(0))
+      generator.prepare(mesh, sensor, image, np, name, control, m_reduced);
+    m_reduced.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  template <class NamedParameters>
-  static internal::Flat_sensor given_sensor([[maybe_unused]] const NamedParameters& np,
-                                            [[maybe_unused]] const std::string& name)
+  // Whether a candidate generator needs more of a scan than what it is reduced to.
+  template <class Generator, class NamedParameters,
+            class = decltype(std::declval<const Generator&>().prepare(
+                std::declval<const internal::Flat_mesh&>(), std::declval<const internal::Flat_sensor&>(),
+                std::declval<const internal::Flat_range_image*>(), std::declval<const NamedParameters&>(),
+                std::declval<const std::string&>(), std::declval<internal::Run_control&>(),
+                std::declval<internal::Reduced_scan&>()))>
+  static constexpr bool has_preparation(int)
   {
-    constexpr bool has_viewpoint = internal::is_given<NamedParameters, internal_np::viewpoint_t>;
-    constexpr bool has_direction = internal::is_given<NamedParameters, internal_np::viewing_direction_t>;
-    if constexpr (has_viewpoint && has_direction)
-      throw std::invalid_argument(name + ": both viewpoint and viewing_direction are given");
-    else if constexpr (has_viewpoint)
-      return internal::to_flat_sensor(
-          Sensor<Kernel>::perspective(internal::parameter(np, internal_np::viewpoint, Point_3(CGAL::ORIGIN))));
-    else if constexpr (has_direction)
-      return internal::to_flat_sensor(Sensor<Kernel>::orthographic(
-          internal::parameter(np, internal_np::viewing_direction, typename Kernel::Vector_3(CGAL::NULL_VECTOR))));
-    else return internal::Flat_sensor();
+    return true;
+  }
+  template <class, class>
+  static constexpr bool has_preparation(long)
+  {
+    return false;
   }
 
-  internal::Prepared_scan m_prepared;
+  internal::Reduced_scan m_reduced;
 };
 
 } // namespace Crude_registration

@@ -8,7 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SENSOR_H
 #define CGAL_CRUDE_REGISTRATION_SENSOR_H
 
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/number_utils.h>
@@ -113,8 +113,7 @@ public:
 private:
   static Vector_3 unit(const Vector_3& v)
   {
-    const internal::Vector d = internal::unit_or_zero(
-        internal::Vector(CGAL::to_double(v.x()), CGAL::to_double(v.y()), CGAL::to_double(v.z())));
+    const internal::Vector d = internal::unit_or_zero(internal::to_vector(v));
     return d.allFinite() ? Vector_3(d.x(), d.y(), d.z()) : Vector_3(CGAL::NULL_VECTOR);
   }
 
@@ -128,6 +127,30 @@ private:
   Point_3 m_viewpoint = CGAL::ORIGIN;
   Vector_3 m_direction = CGAL::NULL_VECTOR;
 };
+
+namespace internal {
+
+template <class Kernel>
+Flat_sensor to_flat_sensor(const Sensor<Kernel>& sensor)
+{
+  Flat_sensor s;
+  if (sensor.is_orthographic()) s = {Flat_sensor::ORTHOGRAPHIC, to_vector(sensor.viewing_direction())};
+  if (sensor.is_perspective()) s = {Flat_sensor::PERSPECTIVE, to_vector(sensor.viewpoint())};
+  return s;
+}
+
+template <class Kernel>
+Sensor<Kernel> to_sensor(const Flat_sensor& s)
+{
+  const Vector& v = s.vector;
+  if (s.kind == Flat_sensor::ORTHOGRAPHIC)
+    return Sensor<Kernel>::orthographic(typename Kernel::Vector_3(v.x(), v.y(), v.z()));
+  if (s.kind == Flat_sensor::PERSPECTIVE)
+    return Sensor<Kernel>::perspective(typename Kernel::Point_3(v.x(), v.y(), v.z()));
+  return Sensor<Kernel>();
+}
+
+} // namespace internal
 
 } // namespace Crude_registration
 } // namespace CGAL

@@ -20,6 +20,7 @@
 // The names of this package: ADD(name).
 #define CGAL_CRUDE_REGISTRATION_OWN_PARAMETERS(ADD)                                                                    \
   ADD(approximation_error)                                                                                             \
+  ADD(candidates)                                                                                                      \
   ADD(curvature_map)                                                                                                   \
   ADD(maximum_distance)                                                                                                \
   ADD(maximum_edge_ratio)                                                                                              \
@@ -29,6 +30,7 @@
   ADD(sampling_distance)                                                                                               \
   ADD(time_budget)                                                                                                     \
   ADD(tolerance)                                                                                                       \
+  ADD(use_normals)                                                                                                     \
   ADD(viewing_direction)                                                                                               \
   ADD(viewpoint)
 

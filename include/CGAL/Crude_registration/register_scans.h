@@ -8,40 +8,28 @@
 #ifndef CGAL_CRUDE_REGISTRATION_REGISTER_SCANS_H
 #define CGAL_CRUDE_REGISTRATION_REGISTER_SCANS_H
 
+// Registers two prepared scans.
+
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
-#include <CGAL/Crude_registration/internal/pipeline/register_prepared_scans.h>
+#include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/motion/Refinement.h>
+#include <CGAL/Crude_registration/internal/pipeline/User_candidates.h>
+#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
+#include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
+#include <CGAL/tags.h>
+
+#include <cstddef>
+#include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
-
-// The search with the lengths of the trihedra's axes within f1 * M .. f2 * M (section 5).
-inline Search_parameters parameters_within(double f1, double f2)
-{
-  Search_parameters parameters;
-  for (Search_round& round : parameters.rounds) {
-    std::vector<float> scales;
-    for (float s : round.scales)
-      if (double(s) >= f1 && double(s) <= f2) scales.push_back(s);
-    if (scales.empty()) scales.push_back(float(f1 + 0.75 * ((std::min)(f2, 1.) - f1)));
-    round.scales = scales;
-  }
-  return parameters;
-}
-
-// What the parameters `minimum_extent` and `maximum_extent` ask for.
-template <class NamedParameters>
-Search_parameters search_parameters(const NamedParameters& np, const std::string& function)
-{
-  const double f1 = non_negative_parameter(np, internal_np::minimum_extent, 0, function.c_str(), "minimum_extent");
-  const double f2 = non_negative_parameter(np, internal_np::maximum_extent, 1, function.c_str(), "maximum_extent");
-  if (!(f1 < f2)) throw std::invalid_argument(function + ": minimum_extent has to be less than maximum_extent");
-  return parameters_within(f1, f2);
-}
 
 template <class Kernel>
 Registration_result<Kernel> to_result(const Registration_outcome& outcome)
@@ -54,26 +42,68 @@ Registration_result<Kernel> to_result(const Registration_outcome& outcome)
   if (parts.status != NOT_REGISTERED) {
     parts.transformation = to_aff_transformation<Kernel>(outcome.motion);
     parts.crude_transformation = to_aff_transformation<Kernel>(outcome.crude);
-    parts.covariance = outcome.covariance;
+    parts.covariance = rows_of(outcome.covariance);
   }
   parts.source_has_free_space = outcome.source_has_free_space;
   parts.target_has_free_space = outcome.target_has_free_space;
   parts.overlap = outcome.overlap;
   parts.residual = outcome.residual;
-  if (!outcome.poses.empty()) {
-    parts.score = double(outcome.poses.front().score());
-    parts.free_space_violations = double(outcome.poses.front().violations);
-  }
+  parts.score = double(outcome.agreement.score());
+  parts.free_space_violations = double(outcome.agreement.violations);
   for (std::size_t i = parts.status == NOT_REGISTERED ? 0 : 1; i < outcome.poses.size(); ++i)
     parts.runners_up.push_back({to_aff_transformation<Kernel>(outcome.to_input(to_rigid_motion(outcome.poses[i].pose))),
                                 double(outcome.poses[i].score())});
-  parts.statistics = {{"look", outcome.counts.looks, 0},
-                      {"match", outcome.counts.hits, 0},
-                      {"score", outcome.counts.candidates, 0},
-                      {"refine", outcome.counts.refined, 0},
-                      {"search", outcome.counts.judged, outcome.search_seconds},
-                      {"finish", outcome.refinement.iterations, outcome.refine_seconds}};
+  for (const Stage_record& s : outcome.stages) parts.statistics.push_back({s.name, s.count, s.seconds});
   return Registration_result<Kernel>(std::move(parts));
+}
+
+// The generator's own source of candidates, where it has one, or its rounds.
+template <class ConcurrencyTag, class Generator, class Kernel>
+auto candidates_of(const Generator& generator, const Scan<Kernel>& source, const Scan<Kernel>& target, int)
+    -> decltype(generator.candidates(source.reduced(), target.reduced(), Execution::SEQUENTIAL))
+{
+  return generator.candidates(source.reduced(), target.reduced(), execution<ConcurrencyTag>());
+}
+
+template <class ConcurrencyTag, class Generator, class Kernel>
+std::unique_ptr<Candidate_source> candidates_of(const Generator& generator, const Scan<Kernel>& source,
+                                                const Scan<Kernel>& target, long)
+{
+  auto rounds = generator.template rounds<ConcurrencyTag>(source, target);
+  return std::make_unique<User_candidates<decltype(rounds)>>(std::move(rounds), source.reduced(), target.reduced());
+}
+
+// The generator that the parameters give, with what they say of it; of one that has no parameters, itself.
+template <class Generator, class NamedParameters>
+auto with_parameters(const Generator& generator, const NamedParameters& np, const std::string& function, int)
+    -> decltype(generator.with(np, function))
+{
+  return generator.with(np, function);
+}
+
+template <class Generator, class NamedParameters>
+const Generator& with_parameters(const Generator& generator, const NamedParameters&, const std::string&, long)
+{
+  return generator;
+}
+
+template <class NamedParameters>
+auto candidate_generator(const NamedParameters& np, const std::string& function)
+{
+  return with_parameters(parameter(np, internal_np::candidates, Oriented_pair_candidates()), np, function, 0);
+}
+
+template <class ConcurrencyTag, class Kernel, class Generator>
+Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
+                                           const Generator& generator, Run_control& control)
+{
+  // The pipeline may exchange the two.
+  const auto make_candidates = [&](const Reduced_scan& a, const Reduced_scan&) {
+    return &a == &source.reduced() ? candidates_of<ConcurrencyTag>(generator, source, target, 0)
+                                   : candidates_of<ConcurrencyTag>(generator, target, source, 0);
+  };
+  return to_result<Kernel>(register_reduced_scans(source.reduced(), target.reduced(), make_candidates,
+                                                  execution<ConcurrencyTag>(), control));
 }
 
 } // namespace internal
@@ -86,80 +116,64 @@ knowledge of how they lie, and says whether it is to be believed.
 
 \tparam ConcurrencyTag `CGAL::Sequential_tag` (default), `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`; the
         answer is the same, bit by bit, with any number of threads
+\tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
 \param source, target the scans; their sensors, where known, are part of them
-\param np optional named parameters: `minimum_extent` and `maximum_extent`, \f$ f_1 \f$ and \f$ f_2 \f$ of the
-       paper, as shares of the scan's size \f$ M \f$: the least and greatest length of the axes of trihedra (0 and 1
-       if not given); `time_budget`, seconds after which the search ends; `visitor`, an object (or a
-       `std::reference_wrapper` of one) with `void progress(double)`, told the share of the work that is done at most,
-       and `bool go_further()`, which ends the search by `false`. They are called by the calling thread, about once a
-       millisecond.
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{candidates}
+    \cgalParamDescription{the way to propose motions: `Oriented_pair_candidates`, `Trihedron_candidates` (the method of
+                          the paper), or a generator of your own}
+    \cgalParamType{a model of `CandidateGenerator`}
+    \cgalParamDefault{`Oriented_pair_candidates()`}
+    \cgalParamExtra{The parameters of its constructor are read, too: `minimum_extent` and `maximum_extent`, of
+                    `Trihedron_candidates` `tolerance` and `use_normals`.}
+  \cgalParamNEnd
+  \cgalParamNBegin{minimum_extent}
+    \cgalParamDescription{\f$ f_1 \f$ of the paper: what is matched lies no closer to each other than this share of the
+                          scan's mean extent \f$ M \f$}
+    \cgalParamType{`double`, zero or above}
+    \cgalParamDefault{`0`}
+  \cgalParamNEnd
+  \cgalParamNBegin{maximum_extent}
+    \cgalParamDescription{\f$ f_2 \f$ of the paper: and no further away from each other than this share}
+    \cgalParamType{`double`, above `minimum_extent`}
+    \cgalParamDefault{`0.3`}
+  \cgalParamNEnd
+  \cgalParamNBegin{time_budget}
+    \cgalParamDescription{seconds after which the run ends}
+    \cgalParamType{`double`, above zero}
+    \cgalParamDefault{none}
+  \cgalParamNEnd
+  \cgalParamNBegin{visitor}
+    \cgalParamDescription{is told how far the run is, and may end it}
+    \cgalParamType{a model of `RegistrationVisitor`, or a `std::reference_wrapper` of one}
+    \cgalParamDefault{none}
+    \cgalParamExtra{It is called by the calling thread, about once a millisecond.}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
 
 \return the answer; a failure is a status with its reason. `transformation()` maps the source to the target; source and
          target exchanged give the inverse.
 
-\throws std::invalid_argument if `minimum_extent` or `maximum_extent` is negative or not finite, or the former is not
-        less than the latter, or `time_budget` is not a finite number above zero.
+\throws std::invalid_argument if a parameter is out of its range, or a scan was not made for the generator
 
-A search that is ended by its budget or its visitor returns within some hundredths of a second. Its status is then not
+A run that is ended by its budget or its visitor returns within some hundredths of a second. Its status is then not
 `REGISTERED`: the best motion so far is `AMBIGUOUS`, if it is plausible, as its rivals have not been looked for; the
 reason says so. What is thrown by the visitor is passed on.
 
-Otherwise the result depends on nothing but the two scans. Complexity: bounded by the number of looks of the last round
-of the search, whatever the size of the scans.
+Otherwise the result depends on nothing but the two scans and the parameters. Complexity: bounded by the number of looks
+of the last round of the search, whatever the size of the scans.
 */
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Kernel,
           class NamedParameters = parameters::Default_named_parameters>
 Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
                                            const NamedParameters& np = parameters::default_values())
 {
-  const internal::Search_parameters parameters = internal::search_parameters(np, "register_scans");
+  const auto generator = internal::candidate_generator(np, "register_scans");
   internal::Run_control control(internal::visitor_parameter(np), internal::time_budget_parameter(np, "register_scans"));
-  return internal::to_result<Kernel>(
-      internal::register_prepared_scans<ConcurrencyTag>(source.prepared(), target.prepared(), parameters, control));
-}
-
-/*!
-\ingroup PkgCrudeRegistrationRef
-
-\brief registers two triangle meshes: `register_scans()` of the two as `Scan`s.
-
-\tparam ConcurrencyTag see `register_scans()`
-\tparam Source, Target models of `FaceListGraph`, not necessarily the same
-\param source, target the meshes, faces counterclockwise seen from outside (from the sensor)
-\param np_source named parameters for the source (see `Scan`: `vertex_point_map`, `viewpoint`, `viewing_direction`;
-       `geom_traits` sets the kernel of the result) and for the registration (see `register_scans()`)
-\param np_target named parameters for the target
-
-A time budget and a visitor are those of the whole run: where they end the preparation of the scans the answer is
-`NOT_REGISTERED`, and the reason says so.
-
-\throws std::invalid_argument as `Scan` and `register_scans()` do; the text names the argument.
-*/
-template <class ConcurrencyTag = CGAL::Sequential_tag, class Source, class Target,
-          class Source_parameters = parameters::Default_named_parameters,
-          class Target_parameters = parameters::Default_named_parameters>
-auto register_meshes(const Source& source, const Target& target,
-                     const Source_parameters& np_source = parameters::default_values(),
-                     const Target_parameters& np_target = parameters::default_values())
-{
-  using Point =
-      typename boost::property_traits<decltype(internal::const_vertex_point_map(source, np_source))>::value_type;
-  using Default_kernel = typename Kernel_traits<Point>::Kernel;
-  using Kernel = std::remove_cv_t<
-      std::remove_reference_t<decltype(internal::parameter(np_source, internal_np::geom_traits, Default_kernel()))>>;
-  const internal::Search_parameters parameters = internal::search_parameters(np_source, "register_meshes");
-  internal::Run_control control(internal::visitor_parameter(np_source),
-                                internal::time_budget_parameter(np_source, "register_meshes"));
-  try {
-    const Scan<Kernel> prepared_source(source, np_source, "register_meshes: source", control);
-    const Scan<Kernel> prepared_target(target, np_target, "register_meshes: target", control);
-    return internal::to_result<Kernel>(internal::register_prepared_scans<ConcurrencyTag>(
-        prepared_source.prepared(), prepared_target.prepared(), parameters, control));
-  } catch (const internal::Run_control::Stopped&) {
-    typename Registration_result<Kernel>::Parts parts;
-    parts.reason = Preparation_interrupted("the scans").what();
-    return Registration_result<Kernel>(std::move(parts));
-  }
+  return internal::register_scans<ConcurrencyTag>(source, target, generator, control);
 }
 
 } // namespace Crude_registration

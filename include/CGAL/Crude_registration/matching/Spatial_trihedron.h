@@ -8,10 +8,11 @@
 #ifndef CGAL_CRUDE_REGISTRATION_MATCHING_SPATIAL_TRIHEDRON_H
 #define CGAL_CRUDE_REGISTRATION_MATCHING_SPATIAL_TRIHEDRON_H
 
-#include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/internal/reduction/measure_scan.h>
 #include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
+#include <CGAL/Crude_registration/internal/matching/extents.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -187,17 +188,6 @@ inline std::vector<Spatial_trihedron> spatial_trihedra(const std::vector<Vector>
   return Trihedron_choice(points, inside, options)();
 }
 
-// The shares f1 and f2 of M that the parameters give.
-template <class NamedParameters>
-std::array<double, 2> extent_parameters(const NamedParameters& np, const char* function)
-{
-  const double f1 = non_negative_parameter(np, internal_np::minimum_extent, 0.0, function, "minimum_extent");
-  const double f2 = positive_parameter(np, internal_np::maximum_extent, 0.3, function, "maximum_extent");
-  if (!(f1 < f2))
-    throw std::invalid_argument(std::string(function) + ": minimum_extent has to be below maximum_extent");
-  return {f1, f2};
-}
-
 // One trihedron a vertex, with arms from f1 M to f2 M.
 inline Trihedron_options trihedron_options(const std::array<double, 2>& shares, double extent)
 {
@@ -241,7 +231,7 @@ std::vector<Spatial_trihedron> spatial_trihedra(const FaceGraph& mesh,
 {
   const std::array<double, 2> shares = internal::extent_parameters(np, "spatial_trihedra");
   const internal::Flat_mesh flat = internal::to_flat_mesh(mesh, np, "spatial_trihedra", "mesh");
-  const double extent = internal::scan_extent(flat, np, "spatial_trihedra").mean();
+  const double extent = internal::extent_of_mesh(flat, internal::sensor_parameter(np, "spatial_trihedra")).sum() / 3;
   const std::vector<std::uint8_t> borders = internal::border_flags(flat);
   std::vector<std::uint8_t> inside(flat.points.size(), 0);
   for (const auto& f : flat.faces)

@@ -566,7 +566,8 @@ std::vector<Trihedron_match<Kernel>> match_trihedra(const SourceGraph& source, c
     throw std::invalid_argument("match_trihedra: source has fewer than four vertices off its border with a normal");
   if (std::count_if(d.normals.begin(), d.normals.end(), [](const internal::Vector& n) { return !n.isZero(0); }) < 4)
     throw std::invalid_argument("match_trihedra: target has fewer than four vertices with a normal");
-  const double extent = internal::scan_extent(s_mesh, np_source, "match_trihedra").mean();
+  const double extent =
+      internal::extent_of_mesh(s_mesh, internal::sensor_parameter(np_source, "match_trihedra")).sum() / 3;
   internal::Match_tolerances tolerances;
   tolerances.length = internal::positive_parameter(
       np_source, internal_np::tolerance, 0.7 * internal::median_edge_length(d_mesh), "match_trihedra", "tolerance");

@@ -8,32 +8,21 @@
 #ifndef CGAL_CRUDE_REGISTRATION_MOTION_REFINE_MOTION_H
 #define CGAL_CRUDE_REGISTRATION_MOTION_REFINE_MOTION_H
 
+// Refines a rigid motion that is nearly right.
+
+#include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
-#include <CGAL/Crude_registration/internal/motion/point_to_plane.h>
-#include <CGAL/Crude_registration/internal/reduction/scan_frame.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/motion/refine_flat_motion.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
-#include <CGAL/Kd_tree.h>
-#include <CGAL/Kernel_traits.h>
-#include <CGAL/Orthogonal_k_neighbor_search.h>
-#include <CGAL/Search_traits_3.h>
-#include <CGAL/Search_traits_adapter.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/tags.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
-#include <boost/property_map/property_map.hpp>
-
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
-#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -67,98 +56,22 @@ struct Refined_motion
   /// \f$ (\omega, v) \f$: radians about the axes through the target's origin, and its displacement. It takes the errors
   /// of the correspondences as independent; systematic errors of the scanner are not in it. Along a free motion the
   /// standard deviation is the RMS radius of the matched points; infinite on the diagonal where there are none.
-  Eigen::Matrix<double, 6, 6> covariance;
+  std::array<std::array<double, 6>, 6> covariance;
 };
 
 namespace internal {
 
-// The vertices of a mesh in a Kd tree of CGAL, as a target of Point_to_plane.
-class Vertex_tree
-{
-  using Kernel = Simple_cartesian<double>;
-  using Point = Kernel::Point_3;
-
-  struct Point_map
-  {
-    using key_type = std::int32_t;
-    using value_type = Point;
-    using reference = const Point&;
-    using category = boost::lvalue_property_map_tag;
-    const std::vector<Point>* points;
-
-    const Point& operator[](key_type i) const { return (*points)[std::size_t(i)]; }
-    friend const Point& get(const Point_map& map, key_type i) { return map[i]; }
-  };
-
-  using Traits_3 = Search_traits_3<Kernel>;
-  using Traits = Search_traits_adapter<std::int32_t, Point_map, Traits_3>;
-  using Search = Orthogonal_k_neighbor_search<Traits>;
-
-public:
-  explicit Vertex_tree(const Flat_mesh& mesh)
-      : m_normals(vertex_normals(mesh)), m_is_border(border_flags(mesh)), m_points(to_points(mesh.points)),
-        m_distance(Point_map{&m_points}), m_tree(Search::Splitter(), Traits(Point_map{&m_points}))
-  {
-    for (std::size_t i = 0; i < m_points.size(); ++i)
-      if (!m_normals[i].isZero()) m_tree.insert(std::int32_t(i));
-    if (!m_tree.empty()) m_tree.build();
-  }
-
-  Vertex_tree(const Vertex_tree&) = delete;
-  Vertex_tree& operator=(const Vertex_tree&) = delete;
-
-  bool empty() const { return m_tree.empty(); }
-
-  bool closest(const Vector& query, double reach, Surface_point& answer) const
-  {
-    const Search search(m_tree, Point(query.x(), query.y(), query.z()), 1, 0, true, m_distance);
-    if (search.begin() == search.end() || !(search.begin()->second <= reach * reach)) return false;
-    const std::size_t i = std::size_t(search.begin()->first);
-    answer = {Vector(m_points[i].x(), m_points[i].y(), m_points[i].z()), m_normals[i], m_is_border[i] != 0};
-    return true;
-  }
-
-private:
-  static std::vector<Point> to_points(const std::vector<Vector>& vectors)
-  {
-    std::vector<Point> points;
-    points.reserve(vectors.size());
-    for (const Vector& v : vectors) points.emplace_back(v.x(), v.y(), v.z());
-    return points;
-  }
-
-  std::vector<Vector> m_normals;
-  std::vector<std::uint8_t> m_is_border;
-  std::vector<Point> m_points;
-  typename Search::Distance m_distance;
-  typename Search::Tree m_tree;
-};
-
-// RMS distance of points from their mean.
-inline double rms_radius(const std::vector<Vector>& points)
-{
-  if (points.empty()) return 0;
-  Vector mean = Vector::Zero();
-  for (const Vector& p : points) mean += (p - points.front()) / double(points.size());
-  mean += points.front();
-  double sum = 0;
-  for (const Vector& p : points) sum += (p - mean).squaredNorm() / double(points.size());
-  return std::sqrt(sum);
-}
-
 // The rigid motion next to an affine transformation that was written with three digits or more.
 template <class Kernel>
-Rigid_motion rigid_argument(const Aff_transformation_3<Kernel>& transformation, const char* function,
-                            const char* argument)
+Rigid_motion rigid_argument(const Aff_transformation_3<Kernel>& transformation, const std::string& function,
+                            const std::string& argument)
 {
-  Rigid_motion motion = to_rigid_motion(transformation);
+  const Rigid_motion motion = to_rigid_motion(transformation);
   const Matrix& r = motion.rotation;
   const bool is_rigid = motion.translation.allFinite() && r.allFinite() &&
                         (r.transpose() * r - Matrix::Identity()).cwiseAbs().maxCoeff() < 1e-3 && r.determinant() > 0;
-  if (!is_rigid) throw std::invalid_argument(std::string(function) + ": " + argument + " is not a rigid motion");
-  const Eigen::JacobiSVD<Matrix> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  motion.rotation = svd.matrixU() * svd.matrixV().transpose();
-  return motion;
+  if (!is_rigid) throw std::invalid_argument(function + ": " + argument + " is not a rigid motion");
+  return {nearest_rotation(r), motion.translation};
 }
 
 } // namespace internal
@@ -236,23 +149,12 @@ Refined_motion<Kernel> refine_motion(const SourceGraph& source, const TargetGrap
                                      const NamedParameters1& np_source = parameters::default_values(),
                                      const NamedParameters2& np_target = parameters::default_values())
 {
-#ifndef CGAL_LINKED_WITH_TBB
-  static_assert(!std::is_convertible<ConcurrencyTag, Parallel_tag>::value,
-                "Parallel_tag is enabled but TBB is unavailable.");
-#endif
   const char* const function = "refine_motion";
   const internal::Flat_mesh source_mesh =
       internal::to_flat_mesh(source, internal::cgal_parameters(np_source), function, "source");
   const internal::Flat_mesh target_mesh =
       internal::to_flat_mesh(target, internal::cgal_parameters(np_target), function, "target");
   const internal::Rigid_motion initial = internal::rigid_argument(initial_motion, function, "initial_motion");
-
-  const std::vector<internal::Vector> normals = internal::vertex_normals(source_mesh);
-  const internal::Vertex_tree tree(target_mesh);
-  const auto has_area = [](const internal::Vector& normal) { return !normal.isZero(); };
-  if (std::none_of(normals.begin(), normals.end(), has_area))
-    throw std::invalid_argument("refine_motion: source has no face with an area");
-  if (tree.empty()) throw std::invalid_argument("refine_motion: target has no face with an area");
 
   internal::Refinement_options options;
   options.sampling_distance = internal::positive_parameter(
@@ -268,8 +170,8 @@ Refined_motion<Kernel> refine_motion(const SourceGraph& source, const TargetGrap
       internal::count_parameter(np_source, internal_np::number_of_iterations, options.maximum_number_of_iterations, 1,
                                 function, "number_of_iterations");
 
-  internal::Point_to_plane<ConcurrencyTag, internal::Vertex_tree> refine(source_mesh.points, normals, tree, options);
-  const internal::Refinement r = refine(initial);
+  const internal::Refinement r =
+      internal::refine_flat_motion(source_mesh, target_mesh, initial, options, internal::execution<ConcurrencyTag>());
   return {internal::to_aff_transformation<Kernel>(r.motion),
           r.iterations,
           r.is_converged,
@@ -277,7 +179,7 @@ Refined_motion<Kernel> refine_motion(const SourceGraph& source, const TargetGrap
           r.residual / options.sampling_distance,
           r.overlap,
           int(r.free_motions.size()),
-          r.covariance};
+          internal::rows_of(r.covariance)};
 }
 
 } // namespace Crude_registration

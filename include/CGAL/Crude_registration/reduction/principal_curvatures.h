@@ -9,7 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_REDUCTION_PRINCIPAL_CURVATURES_H
 
 #include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Origin.h>

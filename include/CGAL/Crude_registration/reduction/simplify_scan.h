@@ -9,7 +9,7 @@
 #define CGAL_CRUDE_REGISTRATION_REDUCTION_SIMPLIFY_SCAN_H
 
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Simple_cartesian.h>

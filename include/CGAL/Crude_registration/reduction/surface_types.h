@@ -8,9 +8,10 @@
 #ifndef CGAL_CRUDE_REGISTRATION_REDUCTION_SURFACE_TYPES_H
 #define CGAL_CRUDE_REGISTRATION_REDUCTION_SURFACE_TYPES_H
 
-#include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/reduction/classify_vertices.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
+#include <CGAL/Crude_registration/reduction/Surface_type.h>
 
 #include <cmath>
 #include <cstddef>
@@ -18,102 +19,6 @@
 
 namespace CGAL {
 namespace Crude_registration {
-
-/// \ingroup PkgCrudeRegistrationRef
-/// the type of a surface at a point by its principal curvatures.
-enum Surface_type
-{
-  PLANAR,    ///< both are zero
-  PARABOLIC, ///< one is zero
-  ELLIPTIC,  ///< they have the same sign
-  HYPERBOLIC ///< they have opposite signs
-};
-
-/*!
- * \ingroup PkgCrudeRegistrationRef
- *
- * \brief the type of a surface with the given principal curvatures.
- *
- * A curvature of absolute value at most `tolerance` (in 1/length) counts as zero. With a tolerance of 0 the type is
- * that of the sign of the Gaussian curvature, and on measured data, where no curvature is ever exactly zero, elliptic
- * or hyperbolic.
- */
-template <class FT>
-Surface_type surface_type(const FT& minimum, const FT& maximum, const FT& tolerance = FT(0))
-{
-  const int signs[] = {minimum > tolerance ? 1 : (minimum < -tolerance ? -1 : 0),
-                       maximum > tolerance ? 1 : (maximum < -tolerance ? -1 : 0)};
-  if (signs[0] == 0 && signs[1] == 0) return PLANAR;
-  if (signs[0] == 0 || signs[1] == 0) return PARABOLIC;
-  return signs[0] == signs[1] ? ELLIPTIC : HYPERBOLIC;
-}
-
-/*!
- * \ingroup PkgCrudeRegistrationRef
- *
- * \brief how many vertices of a mesh are of which type.
- */
-struct Surface_type_counts
-{
-  std::size_t planar = 0, parabolic = 0, elliptic = 0, hyperbolic = 0;
-
-  void add(Surface_type type)
-  {
-    switch (type) {
-    case PLANAR:
-      ++planar;
-      break;
-    case PARABOLIC:
-      ++parabolic;
-      break;
-    case ELLIPTIC:
-      ++elliptic;
-      break;
-    case HYPERBOLIC:
-      ++hyperbolic;
-      break;
-    }
-  }
-
-  /// the paper's smoothness: the share of the vertices that are not hyperbolic, in percent; 100 without any vertex.
-  double percent_smooth() const
-  {
-    const std::size_t smooth = planar + parabolic + elliptic, all = smooth + hyperbolic;
-    return all == 0 ? 100.0 : 100.0 * double(smooth) / double(all);
-  }
-};
-
-namespace internal {
-
-// Above this radius of curvature, as a multiple of the mesh's size, a surface counts as flat: far above the curvatures
-// that the rounding of double gives the vertices of a plane, far below what noise gives those of a scan.
-constexpr double flat_radius = 1e6;
-
-// The curvature at most which a surface of this mesh counts as flat. The size is twice the root mean square distance of
-// the vertices from their centroid: it does not depend on the frame.
-inline double flat_curvature(const Flat_mesh& mesh)
-{
-  if (mesh.points.empty()) return 0;
-  const auto n = double(mesh.points.size());
-  const Vector& reference = mesh.points.front();
-  Vector mean = Vector::Zero();
-  for (const Vector& p : mesh.points) mean += p - reference;
-  mean /= n;
-  double squares = 0;
-  for (const Vector& p : mesh.points) squares += (p - reference - mean).squaredNorm();
-  return squares > 0 ? 1 / (flat_radius * 2 * std::sqrt(squares / n)) : 0;
-}
-
-// Vertices without a face of positive area do not count.
-inline Surface_type_counts count_surface_types(const Curvature_field& field, double tolerance)
-{
-  Surface_type_counts counts;
-  for (std::size_t i = 0; i < field.tensors.size(); ++i)
-    if (field.areas[i] > 0) counts.add(surface_type(field.tensors[i].minimum(), field.tensors[i].maximum(), tolerance));
-  return counts;
-}
-
-} // namespace internal
 
 /*!
  * \ingroup PkgCrudeRegistrationRef

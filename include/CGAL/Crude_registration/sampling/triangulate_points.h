@@ -8,13 +8,11 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SAMPLING_TRIANGULATE_POINTS_H
 #define CGAL_CRUDE_REGISTRATION_SAMPLING_TRIANGULATE_POINTS_H
 
-#include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
-#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
-#include <CGAL/Crude_registration/internal/sampling/Projected_triangulation.h>
-#include <CGAL/Crude_registration/internal/base/Run_control.h>
-#include <CGAL/Crude_registration/internal/sampling/Surface_from_points.h>
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_points.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_point_triangulation.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/boost/graph/named_params_helper.h>
@@ -31,56 +29,6 @@
 
 namespace CGAL {
 namespace Crude_registration {
-namespace internal {
-
-// `function` and `argument` name the caller and its argument in the text of what is thrown: std::invalid_argument for a
-// coordinate that is not finite, a size that cannot be computed with, more than 2^31 - 1 points; Run_control::Stopped.
-template <class PointRange, class PointMap>
-std::vector<Vector> to_flat_points(const PointRange& points, const PointMap& point_map, const std::string& function,
-                                   const std::string& argument, Run_control& control = to_the_end())
-{
-  std::vector<Vector> result;
-  for (const auto& element : points) {
-    control.check(result.size());
-    result.push_back(to_vector(get(point_map, element)));
-    if (!result.back().allFinite())
-      throw std::invalid_argument(function + ": point " + std::to_string(result.size() - 1) + " of " + argument +
-                                  " has a coordinate that is not finite");
-    if (result.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-      throw std::invalid_argument(function + ": " + argument + " has more than 2^31 - 1 points");
-  }
-  check_size(result, function, argument);
-  return result;
-}
-
-// \throws Run_control::Stopped
-inline Flat_mesh flat_triangulation(const std::vector<Vector>& points, const Flat_sensor& sensor,
-                                    double maximum_edge_ratio, Run_control& control = to_the_end())
-{
-  if (sensor.kind == Flat_sensor::UNKNOWN) return Surface_from_points(points, maximum_edge_ratio, control)();
-  return Projected_triangulation(points, sensor, maximum_edge_ratio, control)();
-}
-
-// The sensor that the parameters `viewpoint` and `viewing_direction` give, or an unknown one.
-template <class NamedParameters>
-Flat_sensor sensor_parameter(const NamedParameters& np, const char* function)
-{
-  Flat_sensor sensor;
-  if constexpr (is_given<NamedParameters, internal_np::viewpoint_t>) {
-    static_assert(!is_given<NamedParameters, internal_np::viewing_direction_t>,
-                  "viewpoint and viewing_direction exclude each other");
-    sensor = {Flat_sensor::PERSPECTIVE, to_vector(parameter(np, internal_np::viewpoint, 0))};
-    if (!sensor.vector.allFinite()) throw std::invalid_argument(std::string(function) + ": viewpoint is not finite");
-  } else if constexpr (is_given<NamedParameters, internal_np::viewing_direction_t>) {
-    sensor = {Flat_sensor::ORTHOGRAPHIC, unit_or_zero(to_vector(parameter(np, internal_np::viewing_direction, 0)))};
-    if (!sensor.vector.allFinite() || sensor.vector.isZero())
-      throw std::invalid_argument(std::string(function) + ": viewing_direction is null or not finite");
-  }
-  return sensor;
-}
-
-} // namespace internal
-
 /*!
 \ingroup PkgCrudeRegistrationRef
 
@@ -150,7 +98,8 @@ void triangulate_points(const PointRange& points, FaceGraph& mesh,
 {
   using Element = typename std::iterator_traits<typename PointRange::const_iterator>::value_type;
   const double ratio =
-      internal::positive_parameter(np, internal_np::maximum_edge_ratio, 5, "triangulate_points", "maximum_edge_ratio");
+      internal::positive_parameter(np, internal_np::maximum_edge_ratio, internal::default_maximum_edge_ratio,
+                                   "triangulate_points", "maximum_edge_ratio");
   const internal::Flat_sensor sensor = internal::sensor_parameter(np, "triangulate_points");
   const auto point_map = internal::parameter(np, internal_np::point_map, CGAL::Identity_property_map<Element>());
   const std::vector<internal::Vector> flat =

@@ -9,9 +9,9 @@
 #define CGAL_CRUDE_REGISTRATION_SAMPLING_TRIANGULATE_RANGE_IMAGE_H
 
 #include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
+#include <CGAL/Crude_registration/internal/sampling/estimate_flat_sensor.h>
 #include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
-#include <CGAL/Crude_registration/internal/sampling/Flat_triangulation.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation.h>
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
@@ -65,10 +65,11 @@ template <class Kernel, class FaceGraph, class NamedParameters = parameters::Def
 void triangulate_range_image(const Range_image<Kernel>& image, FaceGraph& mesh,
                              const NamedParameters& np = parameters::default_values())
 {
-  const double ratio = internal::positive_parameter(np, internal_np::maximum_edge_ratio, 5, "triangulate_range_image",
-                                                    "maximum_edge_ratio");
+  const double ratio =
+      internal::positive_parameter(np, internal_np::maximum_edge_ratio, internal::default_maximum_edge_ratio,
+                                   "triangulate_range_image", "maximum_edge_ratio");
   internal::Flat_range_image flat(image);
-  if (!image.sensor().is_known()) flat.sensor = internal::Sensor_estimation(flat)();
+  if (!image.sensor().is_known()) flat.sensor = internal::estimated_sensor(flat);
   internal::add_flat_mesh(internal::flat_triangulation(flat, internal::sampling(flat), ratio), mesh, np);
 }
 

@@ -12,7 +12,7 @@
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/lookup/Triangle_tree.h>
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Bbox_3.h>

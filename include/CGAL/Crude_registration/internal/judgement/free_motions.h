@@ -8,8 +8,12 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_FREE_MOTIONS_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_FREE_MOTIONS_H
 
+// The motions that an overlap leaves free: found, and put in words.
+
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
+#include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
+#include <CGAL/Crude_registration/internal/motion/twist.h>
 
 #include <Eigen/Geometry>
 
@@ -32,8 +36,7 @@ struct Free_motions
 // `free`: small motions (w, v), x -> x + w x x + v, that span all that is free. `centre`, `radius`: of the overlap, in
 // the same frame; a motion is a translation where its turn moves the overlap by less than a seventh of what its shift
 // does.
-inline Free_motions name_free_motions(const std::vector<Eigen::Matrix<double, 6, 1>>& free, const Vector& centre,
-                                      double radius)
+inline Free_motions name_free_motions(const std::vector<Vector_6>& free, const Vector& centre, double radius)
 {
   Free_motions names;
   if (free.empty() || !(radius > 0)) return names;
@@ -75,6 +78,35 @@ inline Free_motions name_free_motions(const std::vector<Eigen::Matrix<double, 6,
   else if (translations == 0 && rotations == 1) names.surface = "a surface of revolution";
   else if (translations == 1 && rotations == 0) names.surface = "a surface of extrusion";
   return names;
+}
+
+// The small motions (w, v) that leave the scans in agreement, most uncertain first: those along which they agree as
+// well two spacings of the simplified surface further on, either way. What the information matrix says is uncertain is
+// where to look; whether it is free, the surfaces themselves say.
+inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, const Rigid_motion& motion,
+                                               const Matrix_6& covariance, const Vector& centre, double radius,
+                                               double spacing)
+{
+  // In units of length, about the centre.
+  const Matrix cross = cross_matrix(centre);
+  Matrix_6 to_centre = Matrix_6::Identity(), from_centre = Matrix_6::Identity();
+  to_centre.topLeftCorner<3, 3>() *= radius;
+  to_centre.bottomLeftCorner<3, 3>() = -cross; // v + w x c
+  from_centre.topLeftCorner<3, 3>() /= radius;
+  from_centre.bottomLeftCorner<3, 3>() = cross / radius;
+  const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(to_centre * covariance * to_centre.transpose());
+  constexpr float as_well = 0.75f;
+  const float there = judge.assess(to_pose(motion)).score();
+  std::vector<Vector_6> free;
+  for (int k = 5; k >= 0; --k) {
+    const Vector_6 twist = from_centre * eigen.vectors.col(k);
+    const auto score = [&](double distance) {
+      return judge.assess(to_pose(exponential(twist, distance) * motion)).score();
+    };
+    if (!((std::max)(score(2 * spacing), score(-2 * spacing)) > as_well * there)) break;
+    free.push_back(twist);
+  }
+  return free;
 }
 
 } // namespace internal

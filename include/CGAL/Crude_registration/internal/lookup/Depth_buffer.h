@@ -8,7 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_DEPTH_BUFFER_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_DEPTH_BUFFER_H
 
-#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>
 

@@ -8,7 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_FIELD_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_FIELD_H
 
-#include <Eigen/Core>
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 #include <algorithm>
 #include <array>
@@ -22,9 +22,6 @@
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
-
-using Vector_f = Eigen::Vector3f;
-using Matrix_f = Eigen::Matrix3f;
 
 // A small piece of surface: the mean of the samples in one cell, with their mean normal and the principal curvatures of
 // the neighbourhood times the spacing of the surfels, so that they have no unit.

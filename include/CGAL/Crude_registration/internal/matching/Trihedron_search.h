@@ -8,52 +8,31 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MATCHING_TRIHEDRON_SEARCH_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MATCHING_TRIHEDRON_SEARCH_H
 
+// The search of the paper: spatial trihedra of the S-mesh, matched exhaustively in the D-mesh.
+
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
-#include <CGAL/Crude_registration/internal/judgement/Motion_evaluation.h>
+#include <CGAL/Crude_registration/internal/judgement/agreement.h>
+#include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
+#include <CGAL/Crude_registration/internal/matching/extents.h>
+#include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
+#include <CGAL/Crude_registration/internal/motion/point_to_plane.h>
+#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 #include <CGAL/Crude_registration/matching/match_trihedra.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
-
-// A scan's simplified mesh as the search sees it, in the own frame of the prepared scan.
-struct Simplified_scan
-{
-  Matching_vertices vertices;
-  double spacing = 0; // of neighbouring vertices
-  double extent = 0;  // M
-};
-
-// The neighbourhood that describes a vertex: what is left of the noise of a scan in a fit over some hundred samples
-// does not hide the shape.
-inline double description_radius(const Prepared_scan& scan)
-{
-  return 10 * scan.spacing;
-}
-
-// `simplified`, `dense`: in the frame of the input.
-inline Simplified_scan simplified_scan(const Prepared_scan& scan, const Flat_mesh& simplified, const Flat_mesh& dense,
-                                       const std::vector<Vector>& dense_normals)
-{
-  Simplified_scan result;
-  result.vertices = matching_vertices(simplified, dense, dense_normals, description_radius(scan));
-  for (Vector& p : result.vertices.points) p = scan.own_from_input(p);
-  for (Vector& n : result.vertices.normals) n = scan.own_from_input.rotation * n;
-  result.spacing = median_edge_length(simplified);
-  result.extent = scan.extent;
-  return result;
-}
 
 // How far a pass goes: which trihedra, and how far vertices that correspond may differ.
 struct Trihedron_pass
@@ -67,69 +46,70 @@ struct Trihedron_pass
   double spacing;       // the largest, in shares of M: vertices further apart differ by more than this pass allows for
 };
 
-struct Trihedron_search_parameters
+struct Trihedron_parameters
 {
-  double minimum_extent = 0;   // f1
-  double maximum_extent = 0.3; // f2
+  double minimum_extent = 0, maximum_extent = default_maximum_extent; // f1, f2
+  double tolerance = 0; // of the place of a vertex, a length; 0: as the passes have it
   bool use_normals = true;
-  // Passes follow each other until the best motion's fine score is at least `certain_score`. Every pass looks up all
-  // its trihedra in the whole D-mesh and scores every candidate.
+  // A next pass is made as long as nothing is certain. Every pass looks up all its trihedra in the whole D-mesh and
+  // scores every candidate.
   std::vector<Trihedron_pass> passes = {{{2. / 3}, 1, 0.7, 9, 0.12, 16, 0.025},
                                         {{2. / 3}, 1, 0.7, 12, 0.15, 16, 0.065},
                                         {{1, 2. / 3}, 1, 0.7, 15, 0.2, 10, 10},
                                         {{1, 2. / 3}, 4, 0.7, 20, 0.2, 32, 10},
                                         {{1, 2. / 3, 4. / 9}, 4, 0.8, 20, 0.4, 48, 10}};
-  double certain_score = 0.1;
   // All candidates are scored by a few of the vertices, the best of them by more, the best of these by all; the best
-  // distinct ones are estimated again from all vertices, scored again by all, and refined from the best one on until
-  // one is certain.
+  // distinct ones are estimated again from all vertices, and scored again by all.
   std::size_t coarse_probes = 96;
   std::size_t kept_by_trihedron = 8;
   std::size_t kept = 1000;
   std::size_t more_probes = 256;
   std::size_t kept_by_more = 100;
-  std::size_t refined_at_once = 2; // by different threads
 };
 
-struct Trihedron_search_result
-{
-  bool is_found = false; // whether there was any candidate
-  // From the own frame of the source to that of the target: the motion of the best trihedron, that of all vertices that
-  // agree under it, and refined.
-  Rigid_motion trihedron_motion, crude_motion, refined_motion;
-  double score = 0; // the fine score of the refined motion
-  std::size_t passes = 0, trihedra = 0, candidates = 0;
-  double seconds = 0;
-};
-
-// Sections 5 and 6 of the paper from one end to the other: all trihedra of S in the whole of D, and the best of all
-// candidates.
-template <class ConcurrencyTag>
-class Trihedron_search
+// Sections 5 and 6 of the paper from one end to the other: all trihedra of S in the whole of D, and the motions that
+// align S best over D.
+class Trihedron_search : public Candidate_source
 {
 public:
-  // All kept by reference.
-  Trihedron_search(const Prepared_scan& source, const Simplified_scan& s, const Prepared_scan& target,
-                   const Simplified_scan& d, const Trihedron_search_parameters& parameters)
-      : m_source(source), m_s(s), m_d(d), m_parameters(parameters),
-        m_evaluation(source, s.vertices, target, d.vertices, (std::max)(s.spacing, d.spacing))
-  {}
-
-  Trihedron_search_result operator()()
+  // The scans are kept by reference.
+  // \pre Both scans have their simplified meshes.
+  Trihedron_search(const Reduced_scan& source, const Reduced_scan& target, Trihedron_parameters parameters,
+                   Execution execution)
+      : m_source(source), m_target(target), m_s(*source.simplified), m_d(*target.simplified),
+        m_parameters(std::move(parameters)), m_execution(execution), m_spacing((std::max)(m_s.spacing, m_d.spacing)),
+        m_source_probes(probes(m_s.vertices)), m_target_probes(probes(m_d.vertices)),
+        m_field(some_of(m_target_probes, Surfel_field::maximum_size), 0.4f * float(m_spacing), float(m_spacing))
   {
-    const auto start = std::chrono::steady_clock::now();
-    Trihedron_search_result result;
-    for (const Trihedron_pass& pass : m_parameters.passes) {
-      if (spacing() > pass.spacing * m_s.extent) continue;
-      ++result.passes;
-      run(pass, result);
-      if (result.is_found && result.score >= m_parameters.certain_score) break;
-    }
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return result;
+    const std::vector<Vector>& points = m_s.vertices.points;
+    for (const Vector& p : points) m_mean += p / double(points.size());
+    for (const Vector& p : points) m_covariance += (p - m_mean) * (p - m_mean).transpose() / double(points.size());
   }
 
+  bool next(Run_control& control, Proposals& proposals) override
+  {
+    const std::size_t passes = m_parameters.passes.size();
+    while (m_next_pass < passes && m_spacing > m_parameters.passes[m_next_pass].spacing * m_source.extent)
+      ++m_next_pass;
+    if (m_next_pass == passes || m_source_probes.empty() || m_target_probes.empty()) return false;
+    const Trihedron_pass& pass = m_parameters.passes[m_next_pass++];
+    const Stage_timer timer(m_rounds);
+    ++m_rounds.count;
+    std::vector<Spatial_trihedron> trihedra = chosen(pass);
+    if (trihedra.empty()) return true;
+    const std::vector<Crude_motion> crude = crude_motions(match(pass, trihedra, control), pass.distinct, control);
+    for (const Crude_motion& c : crude) proposals.poses.push_back(to_pose(c.motion));
+    proposals.judged = judged;
+    return true;
+  }
+
+  double progress() const override { return double(m_next_pass) / double(m_parameters.passes.size()); }
+
+  std::vector<Stage_record> stages() const override { return {m_rounds, m_trihedra, m_matches, m_estimates}; }
+
 private:
+  static constexpr std::size_t judged = 8; // as of the pairs of oriented points
+
   struct Scored_candidate
   {
     Candidate_motion candidate;
@@ -178,54 +158,91 @@ private:
     std::atomic<double> m_least{-(std::numeric_limits<double>::max)()};
   };
 
-  double spacing() const { return (std::max)(m_s.spacing, m_d.spacing); }
-
-  void run(const Trihedron_pass& pass, Trihedron_search_result& result)
+  // The described vertices, any first ones of them spread over the mesh.
+  static std::vector<Surfel> probes(const Matching_vertices& vertices)
   {
+    std::vector<Surfel> result;
+    for (const std::int32_t i : shuffled(vertices.points.size(), 0)) {
+      if (vertices.normals[std::size_t(i)].isZero(0)) continue;
+      Surfel s;
+      s.position = vertices.points[std::size_t(i)].cast<float>();
+      s.normal = vertices.normals[std::size_t(i)].cast<float>();
+      result.push_back(s);
+    }
+    return result;
+  }
+
+  static std::vector<Surfel> some_of(const std::vector<Surfel>& surfels, std::size_t number)
+  {
+    return {surfels.begin(), surfels.begin() + std::ptrdiff_t((std::min)(number, surfels.size()))};
+  }
+
+  // A part of a range, without a copy.
+  struct First_surfels
+  {
+    const Surfel* first;
+    std::size_t number;
+    const Surfel* begin() const { return first; }
+    const Surfel* end() const { return first + number; }
+    std::size_t size() const { return number; }
+  };
+
+  // How well S lies over D, by at most `count` vertices of each.
+  double score_of(const Rigid_motion& motion, std::size_t count,
+                  double least = -(std::numeric_limits<double>::max)()) const
+  {
+    const auto spacing = float(m_spacing);
+    const First_surfels s{m_source_probes.data(), (std::min)(count, m_source_probes.size())},
+        d{m_target_probes.data(), (std::min)(count, m_target_probes.size())};
+    return double(agreement(m_source, s, m_target, d, m_target.coarse, to_pose(motion),
+                            {0.6f * spacing, 0.7f, 0.8f * spacing}, float(least))
+                      .score());
+  }
+
+  // A motion estimated again from all vertices of S and D that agree under it: the nearest ones, where they are no
+  // further apart than vertices are and face the same way. As the two meshes have their vertices at different places of
+  // the surface, only the distances along the mean normals are made least.
+  Rigid_motion reestimated(const Rigid_motion& motion) const
+  {
+    Refinement_options options;
+    options.sampling_distance = m_spacing / 2;
+    options.reach = m_spacing;
+    options.maximum_number_of_iterations = 8;
+    const Nearest_surfel d{m_target_probes, m_field, m_spacing};
+    return Point_to_plane<Nearest_surfel>(m_s.vertices.points, m_s.vertices.normals, d, options)(motion).motion;
+  }
+
+  // The root mean square distance of the vertices of S under two motions.
+  double distance(const Rigid_motion& a, const Rigid_motion& b) const
+  {
+    const Matrix difference = a.rotation - b.rotation;
+    return std::sqrt((difference * m_mean + a.translation - b.translation).squaredNorm() +
+                     (std::max)(0., (difference * m_covariance * difference.transpose()).trace()));
+  }
+
+  std::vector<Spatial_trihedron> chosen(const Trihedron_pass& pass)
+  {
+    const Stage_timer timer(m_trihedra);
     Trihedron_options options;
-    options.minimum_length = m_parameters.minimum_extent * m_s.extent;
-    options.maximum_length = m_parameters.maximum_extent * m_s.extent;
+    options.minimum_length = m_parameters.minimum_extent * m_source.extent;
+    options.maximum_length = m_parameters.maximum_extent * m_source.extent;
     options.scales = pass.scales;
     options.trihedra_per_scale = pass.trihedra_per_scale;
     std::vector<Spatial_trihedron> trihedra = spatial_trihedra(m_s.vertices.points, m_s.vertices.inside, options);
-    if (trihedra.empty()) return;
-    result.trihedra += trihedra.size();
-
-    std::size_t count = 0;
-    const std::vector<Crude_motion> crude = crude_motions(match(pass, trihedra, count), pass.distinct);
-    result.candidates += count;
-
-    // In their order, some at a time (always the same number, whatever the number of threads), until one is certain.
-    for (std::size_t from = 0; from < crude.size() && !(result.is_found && result.score >= m_parameters.certain_score);
-         from += m_parameters.refined_at_once) {
-      std::vector<Rigid_motion> refined((std::min)(m_parameters.refined_at_once, crude.size() - from));
-      std::vector<double> scores(refined.size(), -(std::numeric_limits<double>::max)());
-      for_each_index<ConcurrencyTag>(refined.size(), [&](std::size_t i) {
-        refined[i] = m_evaluation.refined(crude[from + i].motion);
-        // What ends elsewhere is no crude registration of where it ends.
-        if (m_evaluation.distance(refined[i], crude[from + i].motion) < spacing())
-          scores[i] = m_evaluation.fine_score(refined[i]).value();
-      });
-      for (std::size_t i = 0; i < refined.size(); ++i) {
-        if (scores[i] <= (result.is_found ? result.score : -(std::numeric_limits<double>::max)())) continue;
-        result.is_found = true;
-        result.score = scores[i];
-        result.refined_motion = refined[i];
-        result.crude_motion = m_evaluation.reestimated(crude[from + i].motion);
-        result.trihedron_motion = crude[from + i].trihedron_motion;
-      }
-    }
+    m_trihedra.count += trihedra.size();
+    return trihedra;
   }
 
   // The candidates of all trihedra, each applied and scored; the best few of each trihedron are returned, by trihedron.
   // The ends of the trihedra are put in order.
   std::vector<Scored_candidate> match(const Trihedron_pass& pass, std::vector<Spatial_trihedron>& trihedra,
-                                      std::size_t& count)
+                                      Run_control& control)
   {
+    const Stage_timer timer(m_matches);
     Match_tolerances tolerances;
-    tolerances.length = pass.length * m_d.spacing;
+    tolerances.length = m_parameters.tolerance > 0 ? m_parameters.tolerance : pass.length * m_d.spacing;
     tolerances.angle = pass.angle * CGAL_PI / 180;
-    tolerances.curvature = pass.curvature / description_radius(m_source);
+    tolerances.curvature = pass.curvature / m_s.description_radius;
     tolerances.use_normals = m_parameters.use_normals;
     const std::array<double, 2> arms = range_of_arms(m_s.vertices.points, trihedra);
     const Trihedron_matching matching(m_s.vertices, m_d.vertices, arms[0], arms[1], tolerances);
@@ -239,7 +256,7 @@ private:
     };
     std::vector<Slot> slots((trihedra.size() + chunk - 1) / chunk);
     Best_scores best_scores(m_parameters.kept, m_parameters.coarse_probes);
-    for_each_index<ConcurrencyTag>(slots.size(), [&](std::size_t k) {
+    for_each_index(m_execution, slots.size(), control, [&](std::size_t k) {
       Trihedron_matching::Workspace work;
       std::vector<Scored_candidate> found;
       for (std::size_t t = k * chunk; t < (std::min)((k + 1) * chunk, trihedra.size()); ++t) {
@@ -250,7 +267,7 @@ private:
           if (!candidate_motion(std::int32_t(t), vertices, x, y, c.candidate)) return;
           ++slots[k].count;
           const double least = best_scores.least();
-          c.score = m_evaluation.coarse_score(c.candidate.motion, m_parameters.coarse_probes, least).value();
+          c.score = score_of(c.candidate.motion, m_parameters.coarse_probes, least);
           if (c.score >= least) found.push_back(c);
         });
         keep_best(found, m_parameters.kept_by_trihedron);
@@ -261,21 +278,22 @@ private:
     std::vector<Scored_candidate> candidates;
     for (const Slot& s : slots) {
       candidates.insert(candidates.end(), s.best.begin(), s.best.end());
-      count += s.count;
+      m_matches.count += s.count;
     }
     return candidates;
   }
 
   // The best of the candidates, estimated again from all vertices that agree under them: what aligns S best over D
   // first.
-  std::vector<Crude_motion> crude_motions(std::vector<Scored_candidate> candidates, std::size_t distinct) const
+  std::vector<Crude_motion> crude_motions(std::vector<Scored_candidate> candidates, std::size_t distinct,
+                                          Run_control& control)
   {
+    const Stage_timer timer(m_estimates);
     constexpr auto all = std::size_t(-1);
     const auto look = [&](std::size_t number, std::size_t probes) {
       keep_best(candidates, number);
-      for_each_index<ConcurrencyTag>(candidates.size(), [&](std::size_t i) {
-        candidates[i].score = m_evaluation.coarse_score(candidates[i].candidate.motion, probes).value();
-      });
+      for_each_index(m_execution, candidates.size(), control,
+                     [&](std::size_t i) { candidates[i].score = score_of(candidates[i].candidate.motion, probes); });
     };
     if (candidates.size() > m_parameters.kept_by_more) look(m_parameters.kept, m_parameters.more_probes);
     look(m_parameters.kept_by_more, all);
@@ -285,27 +303,28 @@ private:
     for (const Scored_candidate& c : candidates) {
       if (crude.size() == distinct) break;
       const Rigid_motion& m = c.candidate.motion;
-      if (is_distinct(m, crude, spacing(), [](const Crude_motion& r) { return r.trihedron_motion; }))
+      if (is_distinct(m, crude, m_spacing, [](const Crude_motion& r) { return r.trihedron_motion; }))
         crude.push_back({m, m, 0});
     }
-    for_each_index<ConcurrencyTag>(crude.size(), [&](std::size_t i) {
-      crude[i].motion = m_evaluation.reestimated(crude[i].trihedron_motion);
-      crude[i].score = m_evaluation.coarse_score(crude[i].motion, all).value();
+    for_each_index(m_execution, crude.size(), control, [&](std::size_t i) {
+      crude[i].motion = reestimated(crude[i].trihedron_motion);
+      crude[i].score = score_of(crude[i].motion, all);
     });
     keep_best(crude, crude.size());
+    m_estimates.count += crude.size();
     std::vector<Crude_motion> result;
     for (const Crude_motion& c : crude)
-      if (is_distinct(c.motion, result, spacing() / 4, [](const Crude_motion& r) { return r.motion; }))
+      if (is_distinct(c.motion, result, m_spacing / 4, [](const Crude_motion& r) { return r.motion; }))
         result.push_back(c);
     return result;
   }
 
   template <class Motion_of>
-  bool is_distinct(const Rigid_motion& motion, const std::vector<Crude_motion>& others, double distance,
+  bool is_distinct(const Rigid_motion& motion, const std::vector<Crude_motion>& others, double least,
                    const Motion_of& motion_of) const
   {
     return std::none_of(others.begin(), others.end(),
-                        [&](const Crude_motion& o) { return m_evaluation.distance(motion, motion_of(o)) < distance; });
+                        [&](const Crude_motion& o) { return distance(motion, motion_of(o)) < least; });
   }
 
   // The `count` best, best first; equal ones stay in their order.
@@ -317,11 +336,20 @@ private:
     if (candidates.size() > count) candidates.resize(count);
   }
 
-  const Prepared_scan& m_source;
+  const Reduced_scan& m_source;
+  const Reduced_scan& m_target;
   const Simplified_scan& m_s;
   const Simplified_scan& m_d;
-  Trihedron_search_parameters m_parameters;
-  Motion_evaluation m_evaluation;
+  const Trihedron_parameters m_parameters;
+  const Execution m_execution;
+  const double m_spacing;
+  const std::vector<Surfel> m_source_probes, m_target_probes;
+  const Surfel_field m_field; // of the target's probes
+  Vector m_mean = Vector::Zero();
+  Matrix m_covariance = Matrix::Zero();
+  std::size_t m_next_pass = 0;
+  Stage_record m_rounds{"propose"}, m_trihedra{"propose: trihedra"}, m_matches{"propose: matches"},
+      m_estimates{"propose: estimates"};
 };
 
 } // namespace internal

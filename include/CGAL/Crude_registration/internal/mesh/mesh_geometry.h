@@ -9,20 +9,17 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_MESH_GEOMETRY_H
 
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
-#include <CGAL/Crude_registration/named_parameters.h>
-
-#include <CGAL/boost/graph/helpers.h>
-#include <CGAL/boost/graph/named_params_helper.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -51,15 +48,6 @@ inline std::vector<double> face_areas(const Flat_mesh& mesh, Run_control& contro
     areas.push_back(0.5 * area_vector(mesh, f).norm());
   }
   return areas;
-}
-
-// v / |v|, and the zero vector for v = 0; no squared length over- or underflows.
-inline Vector unit_or_zero(const Vector& v)
-{
-  const double largest = v.cwiseAbs().maxCoeff();
-  if (!(largest > 0)) return Vector::Zero();
-  const Vector scaled = v / largest;
-  return scaled / scaled.norm();
 }
 
 // Unit normals of the vertices; zero where no face of positive area is incident. The faces' normals are weighted by
@@ -97,14 +85,9 @@ inline std::vector<Vector> vertex_normals(const Flat_mesh& mesh, Run_control& co
 inline std::vector<std::uint8_t> border_flags(const Flat_mesh& mesh)
 {
   // In a closed cycle every neighbour is the next corner of one face and the previous corner of another. The sum of
-  // bits(next) - bits(previous) is then 0. For a single open fan it never is, as `bits` is a bijection (splitmix64);
-  // for several fans at one vertex it is with probability 2^-64.
-  const auto bits = [](std::int32_t i) {
-    std::uint64_t x = (std::uint64_t(i) + 1) * 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-  };
+  // bits(next) - bits(previous) is then 0. For a single open fan it never is, as mixing is a bijection; for several
+  // fans at one vertex it is with probability 2^-64.
+  const auto bits = [](std::int32_t i) { return Counter_random::mixed(std::uint64_t(i)); };
   std::vector<std::uint64_t> sums(mesh.points.size(), 0);
   for (const auto& f : mesh.faces) {
     const std::uint64_t a = bits(f[0]), b = bits(f[1]), c = bits(f[2]);
@@ -168,76 +151,30 @@ inline Index_lists neighbours_of_vertices(const Flat_mesh& mesh)
   return lists;
 }
 
-// The vertex point map of a named parameter pack, or the one of the graph.
-template <class Face_graph, class NP>
-auto const_vertex_point_map(const Face_graph& graph, const NP& np)
+// The median length of the edges, those inside counted twice. On the triangulation of a range image this is close to
+// the larger of the distances along rows and columns.
+inline double median_edge_length(const Flat_mesh& mesh)
 {
-  return parameter(np, internal_np::vertex_point, get_const_property_map(vertex_point, graph));
+  std::vector<double> lengths2;
+  lengths2.reserve(3 * mesh.faces.size());
+  for (const auto& f : mesh.faces)
+    for (std::size_t k = 0; k < 3; ++k)
+      lengths2.push_back((mesh.points[std::size_t(f[k])] - mesh.points[std::size_t(f[(k + 1) % 3])]).squaredNorm());
+  if (lengths2.empty()) return 0;
+  const auto middle = lengths2.begin() + std::ptrdiff_t(lengths2.size() / 2);
+  std::nth_element(lengths2.begin(), middle, lengths2.end());
+  return std::sqrt(*middle);
 }
 
-template <class Face_graph, class NP>
-auto mutable_vertex_point_map(Face_graph& graph, const NP& np)
+// The centre of the points' axis-parallel bounding box: an origin at which coordinates lose nothing to rounding.
+inline Vector centre_of_box(const std::vector<Vector>& points)
 {
-  return parameter(np, internal_np::vertex_point, get_property_map(vertex_point, graph));
-}
-
-inline void check_size(const std::vector<Vector>& points, const std::string& function, const std::string& argument)
-{
-  if (points.empty()) return;
-  Vector low = points.front(), high = low;
+  Vector low = Vector::Constant((std::numeric_limits<double>::max)()), high = -low;
   for (const Vector& p : points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const double size = (high - low).maxCoeff();
-  if ((std::max)(high.maxCoeff(), -low.minCoeff()) > largest_coordinate || (size > 0 && size < smallest_size))
-    throw std::invalid_argument(function + ": " + argument +
-                                " has coordinates above 1e75 or a size below 1e-75: another unit of length is needed");
-}
-
-// A FaceGraph as flat arrays: vertices and faces in the order of vertices(graph) and faces(graph), vertices without a
-// face included, null faces left out.
-// `function` and `argument` name the caller and its argument in the text of what is thrown:
-// std::invalid_argument for a face that is not a triangle, a coordinate that is not finite, more than 2^31 - 1 vertices
-// or faces; Run_control::Stopped.
-template <class Face_graph, class NP>
-Flat_mesh to_flat_mesh(const Face_graph& graph, const NP& np, const std::string& function, const std::string& argument,
-                       Run_control& control = to_the_end())
-{
-  const auto point_map = const_vertex_point_map(graph, np);
-  const auto index_map = CGAL::get_initialized_vertex_index_map(graph);
-  constexpr std::size_t limit = std::size_t((std::numeric_limits<std::int32_t>::max)());
-  if (num_vertices(graph) > limit || num_faces(graph) > limit)
-    throw std::invalid_argument(function + ": " + argument + " has more than 2^31 - 1 vertices or faces");
-
-  Flat_mesh mesh;
-  mesh.points.reserve(num_vertices(graph));
-  mesh.faces.reserve(num_faces(graph));
-  // Removed elements that have not been collected leave gaps in the graph's own indices.
-  std::vector<std::int32_t> flat_index(num_vertices(graph), -1);
-  for (auto v : vertices(graph)) {
-    control.check(mesh.points.size());
-    const auto& p = get(point_map, v);
-    const Vector q(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-    if (!q.allFinite())
-      throw std::invalid_argument(function + ": vertex " + std::to_string(mesh.points.size()) + " of " + argument +
-                                  " has a coordinate that is not finite");
-    flat_index[std::size_t(get(index_map, v))] = std::int32_t(mesh.points.size());
-    mesh.points.push_back(q);
-  }
-  check_size(mesh.points, function, argument);
-  for (auto f : faces(graph)) {
-    control.check(mesh.faces.size());
-    const auto h = halfedge(f, graph);
-    const auto h1 = next(h, graph), h2 = next(h1, graph);
-    if (next(h2, graph) != h || h2 == h || h1 == h)
-      throw std::invalid_argument(function + ": face " + std::to_string(mesh.faces.size()) + " of " + argument +
-                                  " is not a triangle");
-    mesh.faces.push_back({flat_index[std::size_t(get(index_map, target(h, graph)))],
-                          flat_index[std::size_t(get(index_map, target(h1, graph)))],
-                          flat_index[std::size_t(get(index_map, target(h2, graph)))]});
-  }
-  return mesh;
+  return points.empty() ? Vector(Vector::Zero()) : Vector(0.5 * low + 0.5 * high);
 }
 
 } // namespace internal

@@ -8,10 +8,14 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MOTION_POINT_TO_PLANE_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MOTION_POINT_TO_PLANE_H
 
-#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
-#include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
+// Robust point-to-plane registration of points with normals to any surface that answers where it is closest.
 
-#include <CGAL/for_each.h>
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
+#include <CGAL/Crude_registration/internal/motion/Normal_equations.h>
+#include <CGAL/Crude_registration/internal/motion/Refinement.h>
+#include <CGAL/Crude_registration/internal/motion/twist.h>
 
 #include <Eigen/Geometry>
 
@@ -25,9 +29,6 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-using Matrix_6 = Eigen::Matrix<double, 6, 6>;
-using Vector_6 = Eigen::Matrix<double, 6, 1>;
-
 // What a target answers to the question for its point closest to a query. A target of refine() is any object with
 //   bool closest(const Vector& query, double reach, Surface_point& answer) const
 // which returns false where nothing is within reach; it is asked by several threads at once under Parallel_tag.
@@ -38,37 +39,15 @@ struct Surface_point
   bool is_on_border;
 };
 
-struct Refinement_options
-{
-  double sampling_distance; // s, the larger of the two scans'
-  double reach;             // how far correspondences may lie at the start
-  double tolerance = 0.05;  // the RMS displacement of a step, in units of s, that ends the iteration
-  std::size_t maximum_number_of_iterations = 50;
-};
-
-struct Refinement
-{
-  Rigid_motion motion; // maps the source to the target
-  std::size_t iterations = 0;
-  bool is_converged = false;
-  std::size_t matches = 0; // source points that have a correspondence under `motion`
-  double overlap = 0;      // share of the source's points within 2 s of the target, borders included
-  double residual = 0;     // RMS distance of the matches along their normals
-
-  // Small motions x -> x + w x x + v behind `motion`, as (w, v).
-  Matrix_6 covariance = Matrix_6::Zero();
-  // A base of those that the matches leave free, scaled to move the matched points by about 1.
-  std::vector<Vector_6> free_motions;
-};
-
 // Robust point-to-plane registration.
-template <class ConcurrencyTag, class Target>
+template <class Target>
 class Point_to_plane
 {
 public:
   Point_to_plane(const std::vector<Vector>& points, const std::vector<Vector>& normals, const Target& target,
-                 const Refinement_options& options)
-      : m_points(points), m_normals(normals), m_target(target), m_options(options), m_matches(points.size())
+                 const Refinement_options& options, Execution execution = Execution::SEQUENTIAL)
+      : m_points(points), m_normals(normals), m_target(target), m_options(options), m_execution(execution),
+        m_matches(points.size())
   {}
 
   Refinement operator()(const Rigid_motion& initial)
@@ -120,20 +99,19 @@ private:
 
   void find_matches(const Rigid_motion& motion, double reach)
   {
-    CGAL::for_each<ConcurrencyTag>(m_matches, [&](Match& match) {
-      const std::size_t i = std::size_t(&match - m_matches.data());
+    for_each_index(m_execution, m_matches.size(), to_the_end(), [&](std::size_t i) {
+      Match& match = m_matches[i];
       match.kind = Match::NONE;
       match.source = motion(m_points[i]);
       Surface_point closest;
-      if (m_normals[i].isZero() || !m_target.closest(match.source, reach, closest)) return true;
+      if (m_normals[i].isZero() || !m_target.closest(match.source, reach, closest)) return;
       const Vector normal = motion.rotation * m_normals[i];
-      if (!(normal.dot(closest.normal) > smallest_normal_cosine)) return true;
+      if (!(normal.dot(closest.normal) > smallest_normal_cosine)) return;
       match.kind = closest.is_on_border ? Match::BORDER : Match::USED;
       match.target = closest.point;
       match.normal = (normal + closest.normal).normalized();
       match.normal_difference = (normal - closest.normal).squaredNorm();
       match.residual = (match.target - match.source).dot(match.normal);
-      return true;
     });
     m_used.clear();
     for (std::size_t i = 0; i < m_matches.size(); ++i)
@@ -162,8 +140,8 @@ private:
                                     smallest_sigma * m_options.sampling_distance);
     for (std::size_t i : m_used) {
       Match& m = m_matches[i];
-      const double u = m.residual / (biweight_reach * sigma), v = 1 - u * u;
-      m.weight = v > 0 ? v * v : 0;
+      const double u = m.residual / (biweight_reach * sigma);
+      m.weight = biweight(u * u);
     }
   }
 
@@ -192,18 +170,16 @@ private:
     m_radius = std::sqrt(spread / m_total_weight);
     if (!(m_radius > 0)) m_radius = m_options.sampling_distance;
 
-    m_normal_matrix.setZero();
-    m_right_side.setZero();
+    Normal_equations<double> equations;
     m_squared_residuals = 0;
     for (std::size_t i : m_used) {
       const Match& m = m_matches[i];
       const Vector p = m.source - m_source_mean, q = m.target - m_target_mean;
-      Vector_6 row;
-      row << (p + q).cross(m.normal) / (2 * m_radius), m.normal;
-      m_normal_matrix += m.weight * row * row.transpose();
-      m_right_side += m.weight * m.residual * row;
+      equations.add((p + q).cross(m.normal) / (2 * m_radius), m.normal, m.residual, m.weight);
       m_squared_residuals += m.weight * m.residual * m.residual;
     }
+    m_normal_matrix = equations.left.selfadjointView<Eigen::Lower>();
+    m_right_side = equations.right;
   }
 
   // Variance of the residuals; that of surfaces sampled without noise stays above zero.
@@ -262,7 +238,7 @@ private:
       const Match& m = m_matches[i];
       const Vector p = (m.source - m_source_mean) / m_radius;
       Eigen::Matrix<double, 6, 3> row_of_normal;
-      row_of_normal << 0, -p.z(), p.y(), p.z(), 0, -p.x(), -p.y(), p.x(), 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+      row_of_normal << cross_matrix(p), Matrix::Identity();
       const Matrix tangential = Matrix::Identity() - m.normal * m.normal.transpose();
       noise += m.weight * variance * row_of_normal * tangential * row_of_normal.transpose();
     }
@@ -291,11 +267,9 @@ private:
 
     // From (m_radius w, displacement of the mean) to (w, displacement of the origin).
     Matrix_6 to_origin = Matrix_6::Zero();
-    const Vector c = m_target_mean;
     to_origin.topLeftCorner<3, 3>() = Matrix::Identity() / m_radius;
     to_origin.bottomRightCorner<3, 3>() = Matrix::Identity();
-    to_origin.bottomLeftCorner<3, 3>() << 0, -c.z(), c.y(), c.z(), 0, -c.x(), -c.y(), c.x(), 0;
-    to_origin.bottomLeftCorner<3, 3>() /= m_radius;
+    to_origin.bottomLeftCorner<3, 3>() = cross_matrix(m_target_mean) / m_radius;
 
     // A motion is free where the information about it is less than twice what noise of the normals makes up, or where
     // its standard deviation exceeds s. The eigenvectors v_k of A v = mu N v have v_k^T N v_k = 1 and, with them,
@@ -319,6 +293,7 @@ private:
   const std::vector<Vector>& m_normals;
   const Target& m_target;
   const Refinement_options m_options;
+  const Execution m_execution;
 
   std::vector<Match> m_matches;    // slot i: source point i
   std::vector<std::size_t> m_used; // indices of the matches of kind USED

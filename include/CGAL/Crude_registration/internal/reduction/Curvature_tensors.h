@@ -82,6 +82,39 @@ struct Curvature_tensor
   }
 };
 
+// The second fundamental form W that explains best, in the least squares sense, how normals differ from place to place,
+// y = W x: a place x = (xu, xv) further in a tangent frame the normal is y = (yu, yv) more. Equation 6 of Rusinkiewicz
+// 2004, over the edges of a face or any neighbourhood. Its normal equations have the matrix [a b 0; b a+c b; 0 b c].
+struct Second_fundamental_form_fit
+{
+  double a = 0, b = 0, c = 0, r0 = 0, r1 = 0, r2 = 0;
+
+  void add(double xu, double xv, double yu, double yv)
+  {
+    a += xu * xu;
+    b += xu * xv;
+    c += xv * xv;
+    r0 += xu * yu;
+    r1 += xu * yv + xv * yu;
+    r2 += xv * yv;
+  }
+
+  // The square of an area: zero where all places lie on a line, and determine no form.
+  double minor() const { return a * c - b * b; }
+  double trace() const { return a + c; }
+
+  // `minor`: that of above, or what it is known to be with more digits; above zero.
+  Curvature_tensor solved(double minor) const
+  {
+    const double scale = 1 / (trace() * minor);
+    Curvature_tensor form;
+    form.uu = ((minor + c * c) * r0 - b * c * r1 + b * b * r2) * scale;
+    form.uv = (a * c * r1 - b * (c * r0 + a * r2)) * scale;
+    form.vv = ((minor + a * a) * r2 - a * b * r1 + b * b * r0) * scale;
+    return form;
+  }
+};
+
 // `t`, written in the frame of first vector `u` of the plane of normal n, rotated about n x m into the plane of normal
 // m and written in that plane's Tangent_frame (Rusinkiewicz 2004, section 3.2). False, and `result` untouched, where n
 // and m are so nearly opposite that the rotation has no meaning.
@@ -166,28 +199,15 @@ inline Curvature_field curvature_tensors(const Flat_mesh& mesh, std::vector<Vect
                      })->normalized();
     const Vector v = n.cross(u);
 
-    // Least squares of  [u_i v_i 0; 0 u_i v_i] (e, f, g)^T = (dn_i . u, dn_i . v)^T  over the edges i. Its normal
-    // equations have the matrix [a b 0; b a+c b; 0 b c]. ac - b^2 is three times the square of the double area, as the
-    // edges sum to zero; written so nothing cancels.
-    double a = 0, b = 0, c = 0, r0 = 0, r1 = 0, r2 = 0;
+    Second_fundamental_form_fit fit;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double eu = edge[i].dot(u), ev = edge[i].dot(v);
       const Vector dn = normals[corner[(i + 2) % 3]] - normals[corner[(i + 1) % 3]];
-      const double du = dn.dot(u), dv = dn.dot(v);
-      a += eu * eu;
-      b += eu * ev;
-      c += ev * ev;
-      r0 += eu * du;
-      r1 += eu * dv + ev * du;
-      r2 += ev * dv;
+      fit.add(edge[i].dot(u), edge[i].dot(v), dn.dot(u), dn.dot(v));
     }
+    // As the edges sum to zero, written so nothing cancels.
     const double minor = 3 * double_area * double_area;
-    const double inverse = 1 / ((a + c) * minor);
-    if (!std::isfinite(inverse)) continue;
-    Curvature_tensor form;
-    form.uu = ((minor + c * c) * r0 - b * c * r1 + b * b * r2) * inverse / length;
-    form.uv = (a * c * r1 - b * (c * r0 + a * r2)) * inverse / length;
-    form.vv = ((minor + a * a) * r2 - a * b * r1 + b * b * r0) * inverse / length;
+    if (!std::isfinite(1 / (fit.trace() * minor))) continue;
+    const Curvature_tensor form = fit.solved(minor) / length;
 
     const std::array<double, 3> part = nearest_parts(edge, 0.5 * double_area * length * length);
     for (std::size_t i = 0; i < 3; ++i) {

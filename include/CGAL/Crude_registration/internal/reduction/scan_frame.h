@@ -25,17 +25,6 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// The centre of the points' axis-parallel bounding box: an origin at which coordinates lose nothing to rounding.
-inline Vector centre_of_box(const std::vector<Vector>& points)
-{
-  Vector low = Vector::Constant((std::numeric_limits<double>::max)()), high = -low;
-  for (const Vector& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return points.empty() ? Vector(Vector::Zero()) : Vector(0.5 * low + 0.5 * high);
-}
-
 // The motion into the frame of rows x, y = z x x, z and of the given origin. x and z: perpendicular unit vectors.
 inline Rigid_motion frame_of_axes(const Vector& x, const Vector& z, const Vector& origin)
 {
@@ -130,21 +119,6 @@ inline Vector extent_in_frame(const Flat_mesh& mesh, const Rigid_motion& frame, 
     high = high.cwiseMax(p);
   }
   return mesh.faces.empty() ? Vector(Vector::Zero()) : Vector(high - low);
-}
-
-// The median length of the edges, those inside counted twice. On the triangulation of a range image this is close to
-// the larger of the distances along rows and columns.
-inline double median_edge_length(const Flat_mesh& mesh)
-{
-  std::vector<double> lengths2;
-  lengths2.reserve(3 * mesh.faces.size());
-  for (const auto& f : mesh.faces)
-    for (std::size_t k = 0; k < 3; ++k)
-      lengths2.push_back((mesh.points[std::size_t(f[k])] - mesh.points[std::size_t(f[(k + 1) % 3])]).squaredNorm());
-  if (lengths2.empty()) return 0;
-  const auto middle = lengths2.begin() + std::ptrdiff_t(lengths2.size() / 2);
-  std::nth_element(lengths2.begin(), middle, lengths2.end());
-  return std::sqrt(*middle);
 }
 
 } // namespace internal

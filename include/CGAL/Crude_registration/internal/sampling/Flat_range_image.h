@@ -8,8 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_RANGE_IMAGE_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_RANGE_IMAGE_H
 
-#include <CGAL/Crude_registration/Sensor.h>
-#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 
 #include <CGAL/number_utils.h>
@@ -24,49 +23,6 @@
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
-
-template <class Point>
-Vector to_vector(const Point& p)
-{
-  return Vector(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-}
-
-// The sensor of a stage's inside.
-struct Flat_sensor
-{
-  enum Kind
-  {
-    UNKNOWN,
-    ORTHOGRAPHIC,
-    PERSPECTIVE
-  };
-
-  Kind kind = UNKNOWN;
-  Vector vector = Vector::Zero(); // orthographic: unit viewing direction, into the scene; perspective: viewpoint
-
-  // of any length, from the sensor to p; the sensor is known
-  Vector towards(const Vector& p) const { return kind == ORTHOGRAPHIC ? vector : Vector(p - vector); }
-};
-
-template <class Kernel>
-Flat_sensor to_flat_sensor(const Sensor<Kernel>& sensor)
-{
-  Flat_sensor s;
-  if (sensor.is_orthographic()) s = {Flat_sensor::ORTHOGRAPHIC, to_vector(sensor.viewing_direction())};
-  if (sensor.is_perspective()) s = {Flat_sensor::PERSPECTIVE, to_vector(sensor.viewpoint())};
-  return s;
-}
-
-template <class Kernel>
-Sensor<Kernel> to_sensor(const Flat_sensor& s)
-{
-  const Vector& v = s.vector;
-  if (s.kind == Flat_sensor::ORTHOGRAPHIC)
-    return Sensor<Kernel>::orthographic(typename Kernel::Vector_3(v.x(), v.y(), v.z()));
-  if (s.kind == Flat_sensor::PERSPECTIVE)
-    return Sensor<Kernel>::perspective(typename Kernel::Point_3(v.x(), v.y(), v.z()));
-  return Sensor<Kernel>();
-}
 
 // The range image of a stage's inside. The grid is the image's own, which has to outlive this.
 struct Flat_range_image

@@ -237,13 +237,6 @@ private:
   bool m_is_reversed = false;
 };
 
-// Complexity: linear in the number of cells. \throws Run_control::Stopped
-inline Flat_mesh flat_triangulation(const Flat_range_image& image, const Sampling& sampling,
-                                    double maximum_edge_ratio = 5, Run_control& control = to_the_end())
-{
-  return Flat_triangulation(image, sampling, maximum_edge_ratio, control)();
-}
-
 } // namespace internal
 } // namespace Crude_registration
 } // namespace CGAL

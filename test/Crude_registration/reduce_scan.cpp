@@ -1,9 +1,9 @@
-#define BOOST_TEST_MODULE prepared_scan
+#define BOOST_TEST_MODULE reduce_scan
 #include <boost/test/unit_test.hpp>
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/reduction/Prepared_scan.h>
+#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 #include <CGAL/Crude_registration/internal/simulation/Statue.h>
 
 #include <algorithm>
@@ -111,13 +111,13 @@ Difference difference(const Surfel_level& level, const Surfel_level& other, doub
 // The same scan up to rounding, `unit` times as large. A few samples may lie on the border of two cells; in a cell
 // that the surface crosses at an edge, which sheet is first depends on the order of the samples. What such a surfel
 // says changes the description of its neighbours.
-void check_same(const Prepared_scan& a, const Prepared_scan& b, double unit, std::size_t tolerated)
+void check_same(const Reduced_scan& a, const Reduced_scan& b, double unit, std::size_t tolerated)
 {
   BOOST_TEST(b.number_of_samples == a.number_of_samples);
   BOOST_TEST(std::abs(b.spacing / unit / a.spacing - 1) < 1e-6);
   BOOST_TEST(std::abs(b.extent / unit / a.extent - 1) < 1e-6);
   BOOST_TEST(b.depths.is_known() == a.depths.is_known());
-  for (const auto level : {&Prepared_scan::coarse, &Prepared_scan::fine}) {
+  for (const auto level : {&Reduced_scan::coarse, &Reduced_scan::fine}) {
     const Surfel_level &l = a.*level, &m = b.*level;
     BOOST_TEST(std::abs(double(m.spacing) / unit / double(l.spacing) - 1) < 1e-6);
     BOOST_TEST(std::abs(m.height_noise - l.height_noise) < 0.01f);
@@ -169,7 +169,7 @@ double distance_to(const Surfel_level& level, const Vector& own)
   return nearest / double(level.spacing);
 }
 
-void check_finite(const Prepared_scan& scan)
+void check_finite(const Reduced_scan& scan)
 {
   BOOST_TEST(std::isfinite(scan.spacing));
   BOOST_TEST(std::isfinite(scan.extent));
@@ -196,11 +196,11 @@ BOOST_AUTO_TEST_CASE(a_moved_scan_is_the_same_in_its_own_frame)
 {
   for (const Case& c : scans()) BOOST_TEST_CONTEXT(c.name)
     {
-      const Prepared_scan scan = prepare_scan(c.mesh, c.sensor);
+      const Reduced_scan scan = reduce_scan(c.mesh, c.sensor);
       Random random(1);
       for (double away : {2., 1e4}) {
         const Rigid_motion motion = random.motion(away);
-        const Prepared_scan other = prepare_scan(generated::moved(c.mesh, motion), moved(c.sensor, motion, 1));
+        const Reduced_scan other = reduce_scan(generated::moved(c.mesh, motion), moved(c.sensor, motion, 1));
         check_same(scan, other, 1, 2);
         for (const Vector& p : {Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)})
           BOOST_TEST((other.own_from_input(motion(p)) - scan.own_from_input(p)).norm() < 1e-9 * away);
@@ -212,10 +212,10 @@ BOOST_AUTO_TEST_CASE(the_unit_does_not_matter)
 {
   for (const Case& c : scans()) BOOST_TEST_CONTEXT(c.name)
     {
-      const Prepared_scan scan = prepare_scan(c.mesh, c.sensor);
+      const Reduced_scan scan = reduce_scan(c.mesh, c.sensor);
       for (double unit : {1e-9, 1e-3, 0.3048, 1e3, 1e9}) {
         Rigid_motion same;
-        check_same(scan, prepare_scan(generated::moved(c.mesh, same, unit), moved(c.sensor, same, unit)), unit, 4);
+        check_same(scan, reduce_scan(generated::moved(c.mesh, same, unit), moved(c.sensor, same, unit)), unit, 4);
       }
     }
 }
@@ -224,16 +224,16 @@ BOOST_AUTO_TEST_CASE(the_order_of_vertices_and_faces_does_not_matter)
 {
   for (const Case& c : scans()) BOOST_TEST_CONTEXT(c.name)
     {
-      const Prepared_scan scan = prepare_scan(c.mesh, c.sensor);
-      for (unsigned seed : {1u, 2u}) check_same(scan, prepare_scan(generated::shuffled(c.mesh, seed), c.sensor), 1, 6);
+      const Reduced_scan scan = reduce_scan(c.mesh, c.sensor);
+      for (unsigned seed : {1u, 2u}) check_same(scan, reduce_scan(generated::shuffled(c.mesh, seed), c.sensor), 1, 6);
     }
 }
 
 BOOST_AUTO_TEST_CASE(the_same_bits_twice)
 {
   const Case& c = scans()[1];
-  const Prepared_scan a = prepare_scan(c.mesh, c.sensor), b = prepare_scan(c.mesh, c.sensor);
-  for (const auto level : {&Prepared_scan::coarse, &Prepared_scan::fine}) {
+  const Reduced_scan a = reduce_scan(c.mesh, c.sensor), b = reduce_scan(c.mesh, c.sensor);
+  for (const auto level : {&Reduced_scan::coarse, &Reduced_scan::fine}) {
     BOOST_TEST_REQUIRE((a.*level).surfels.size() == (b.*level).surfels.size());
     for (std::size_t i = 0; i < (a.*level).surfels.size(); ++i) {
       BOOST_TEST(((a.*level).surfels[i].position == (b.*level).surfels[i].position));
@@ -247,7 +247,7 @@ BOOST_AUTO_TEST_CASE(surfels_stand_for_the_samples)
 {
   for (const Case& c : scans()) BOOST_TEST_CONTEXT(c.name)
     {
-      const Prepared_scan scan = prepare_scan(c.mesh, c.sensor);
+      const Reduced_scan scan = reduce_scan(c.mesh, c.sensor);
       BOOST_TEST(std::abs(scan.spacing * scan.spacing * double(scan.number_of_samples) / area(c.mesh) - 1) < 1e-9);
       BOOST_TEST(scan.number_of_samples <= c.mesh.points.size());
       BOOST_TEST(scan.fine.spacing < scan.coarse.spacing);
@@ -285,20 +285,20 @@ BOOST_AUTO_TEST_CASE(curvatures_of_known_surfaces)
     std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
     return values[values.size() / 2];
   };
-  const auto minimal = [&](const Prepared_scan& s) { return median(s.coarse, &Surfel::minimal_curvature); };
-  const auto maximal = [&](const Prepared_scan& s) { return median(s.coarse, &Surfel::maximal_curvature); };
+  const auto minimal = [&](const Reduced_scan& s) { return median(s.coarse, &Surfel::minimal_curvature); };
+  const auto maximal = [&](const Reduced_scan& s) { return median(s.coarse, &Surfel::maximal_curvature); };
 
   // Convex is positive. The chord of the neighbourhood is a few per cent shorter than the arc.
   Flat_mesh sphere = generated::sphere(40, 2);
-  const Prepared_scan convex = prepare_scan(sphere, no_sensor);
+  const Reduced_scan convex = reduce_scan(sphere, no_sensor);
   BOOST_TEST(std::abs(minimal(convex) - 0.5) < 0.05);
   BOOST_TEST(std::abs(maximal(convex) - 0.5) < 0.05);
   for (auto& f : sphere.faces) std::swap(f[0], f[1]);
-  const Prepared_scan concave = prepare_scan(sphere, no_sensor);
+  const Reduced_scan concave = reduce_scan(sphere, no_sensor);
   BOOST_TEST(std::abs(minimal(concave) + 0.5) < 0.05);
   BOOST_TEST(std::abs(maximal(concave) + 0.5) < 0.05);
 
-  const Prepared_scan side = prepare_scan(
+  const Reduced_scan side = reduce_scan(
       generated::grid(
           160, 100,
           [](double u, double v) { return Vector(2 * std::cos(2 * pi * u), 2 * std::sin(2 * pi * u), 8 * v); }, 0.25,
@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(curvatures_of_known_surfaces)
   BOOST_TEST(std::abs(maximal(side) - 0.5) < 0.05);
 
   // z = (x^2 - y^2) / 4: curvatures of about 1/2, of opposite signs.
-  const Prepared_scan saddle = prepare_scan(generated::grid(120, 120,
+  const Reduced_scan saddle = reduce_scan(generated::grid(120, 120,
                                                             [](double u, double v) {
                                                               const double x = u - 0.5, y = v - 0.5;
                                                               return Vector(x, y, (x * x - y * y) / 4);
@@ -317,17 +317,17 @@ BOOST_AUTO_TEST_CASE(curvatures_of_known_surfaces)
   BOOST_TEST(std::abs(minimal(saddle) + 0.5) < 0.06);
   BOOST_TEST(std::abs(maximal(saddle) - 0.5) < 0.06);
 
-  for (const Prepared_scan* scan : {&convex, &concave, &side, &saddle})
+  for (const Reduced_scan* scan : {&convex, &concave, &side, &saddle})
     for (const Surfel& s : scan->coarse.surfels) BOOST_TEST(s.minimal_curvature <= s.maximal_curvature);
 }
 
 BOOST_AUTO_TEST_CASE(borders)
 {
-  const Prepared_scan closed = prepare_scan(generated::sphere(40, 1), no_sensor);
+  const Reduced_scan closed = reduce_scan(generated::sphere(40, 1), no_sensor);
   BOOST_TEST(std::count(closed.coarse.borders.begin(), closed.coarse.borders.end(), 1) <
              std::ptrdiff_t(closed.coarse.borders.size() / 100));
 
-  const Prepared_scan open = prepare_scan(generated::bumps(130), no_sensor);
+  const Reduced_scan open = reduce_scan(generated::bumps(130), no_sensor);
   const Rigid_motion input_from_own = open.own_from_input.inverse();
   const double spacing = double(open.coarse.spacing);
   std::size_t inside = 0, at_border = 0, wrong = 0;
@@ -346,14 +346,14 @@ BOOST_AUTO_TEST_CASE(noise_is_that_of_the_scan)
 {
   float height = -1, turn = -1;
   for (double noise : {0., 0.002, 0.008}) {
-    const Prepared_scan scan = prepare_scan(generated::bumps(130, 1, noise), no_sensor);
+    const Reduced_scan scan = reduce_scan(generated::bumps(130, 1, noise), no_sensor);
     BOOST_TEST(scan.fine.height_noise > height);
     BOOST_TEST(scan.fine.normal_noise > turn);
     height = scan.fine.height_noise;
     turn = scan.fine.normal_noise;
   }
-  const Prepared_scan plane =
-      prepare_scan(generated::grid(130, 130, [](double u, double v) { return Vector(u, v, 0); }), no_sensor);
+  const Reduced_scan plane =
+      reduce_scan(generated::grid(130, 130, [](double u, double v) { return Vector(u, v, 0); }), no_sensor);
   BOOST_TEST(plane.fine.height_noise < 1e-4f);
   BOOST_TEST(plane.fine.normal_noise < 1e-2f);
 }
@@ -366,7 +366,7 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_thin_plate)
   const auto first = std::int32_t(plate.points.size());
   plate.points.insert(plate.points.end(), below.points.begin(), below.points.end());
   for (const auto& f : below.faces) plate.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
-  const Prepared_scan scan = prepare_scan(plate, no_sensor);
+  const Reduced_scan scan = reduce_scan(plate, no_sensor);
   const Vector_f up = (scan.own_from_input.rotation * Vector::UnitZ()).cast<float>();
   for (const Surfel_level* level : {&scan.coarse, &scan.fine}) {
     const auto above = std::count_if(level->surfels.begin(), level->surfels.end(),
@@ -382,7 +382,7 @@ BOOST_AUTO_TEST_CASE(huge_faces_get_samples)
 {
   const Vector size(3, 1, 0.5);
   const Flat_mesh mesh = box(size);
-  const Prepared_scan scan = prepare_scan(mesh, no_sensor);
+  const Reduced_scan scan = reduce_scan(mesh, no_sensor);
   check_finite(scan);
   BOOST_TEST(scan.coarse.surfels.size() > 500u);
   BOOST_TEST(scan.fine.surfels.size() > 5000u);
@@ -412,7 +412,7 @@ BOOST_AUTO_TEST_CASE(needles_get_samples_by_their_area)
     BOOST_TEST_CONTEXT(segments << " segments")
     {
       const Flat_mesh mesh = cylinder(segments, 0.1);
-      const Prepared_scan scan = prepare_scan(mesh, no_sensor);
+      const Reduced_scan scan = reduce_scan(mesh, no_sensor);
       check_finite(scan);
       BOOST_TEST(scan.number_of_samples > 10000u);
       BOOST_TEST(scan.number_of_samples < 1000000u);
@@ -431,8 +431,8 @@ BOOST_AUTO_TEST_CASE(needles_get_samples_by_their_area)
 BOOST_AUTO_TEST_CASE(free_space)
 {
   // Closed, or seen from all sides: none.
-  BOOST_TEST(!prepare_scan(generated::sphere(40, 1), no_sensor).depths.is_known());
-  BOOST_TEST(!prepare_scan(generated::torus(120, 60, 2, 1), no_sensor).depths.is_known());
+  BOOST_TEST(!reduce_scan(generated::sphere(40, 1), no_sensor).depths.is_known());
+  BOOST_TEST(!reduce_scan(generated::torus(120, 60, 2, 1), no_sensor).depths.is_known());
 
   // Without a sensor along the mean normal, above the surface; unless it hides what was seen.
   const Flat_mesh bumps = generated::bumps(130);
@@ -442,14 +442,14 @@ BOOST_AUTO_TEST_CASE(free_space)
     const auto n = std::int32_t(bumps.points.size());
     two_floors.faces.push_back({f[0] + n, f[1] + n, f[2] + n});
   }
-  BOOST_TEST(!prepare_scan(two_floors, no_sensor).depths.is_known());
-  const auto is_free = [](const Prepared_scan& scan, const Vector& p) {
+  BOOST_TEST(!reduce_scan(two_floors, no_sensor).depths.is_known());
+  const auto is_free = [](const Reduced_scan& scan, const Vector& p) {
     return scan.depths.in_front(scan.own_from_input(p).cast<float>()) > 0;
   };
   const std::vector<Flat_sensor> sensors = {no_sensor, orthographic({0, 0, -1}), orthographic({0.2, 0.1, -1}),
                                             perspective({0.5, 0.6, 3})};
   for (const Flat_sensor& sensor : sensors) {
-    const Prepared_scan scan = prepare_scan(bumps, sensor);
+    const Reduced_scan scan = reduce_scan(bumps, sensor);
     BOOST_TEST(scan.depths.is_known());
     BOOST_TEST(is_free(scan, {0.5, 0.5, 0.4}));
     BOOST_TEST(is_free(scan, {0.3, 0.7, 0.3}));
@@ -472,7 +472,7 @@ BOOST_AUTO_TEST_CASE(bridges_over_depth_edges_are_left_out)
   const int n = 160;
   const Flat_mesh step = generated::grid(
       n, n, [](double u, double v) { return Vector(u, v, u < 0.5 ? 0.3 : 0.); }, 0);
-  const Prepared_scan scan = prepare_scan(step, orthographic({0, 0, -1}));
+  const Reduced_scan scan = reduce_scan(step, orthographic({0, 0, -1}));
   const Rigid_motion input_from_own = scan.own_from_input.inverse();
   for (const Surfel& s : scan.fine.surfels) {
     const double z = input_from_own(s.position.cast<double>()).z();
@@ -488,7 +488,7 @@ BOOST_AUTO_TEST_CASE(isolated_vertices_and_faces_without_area_do_not_count)
   const auto n = std::int32_t(mesh.points.size());
   spoilt.faces.push_back({n, n + 1, n + 2});
   spoilt.faces.push_back({0, 0, 1});
-  const Prepared_scan a = prepare_scan(mesh, no_sensor), b = prepare_scan(spoilt, no_sensor);
+  const Reduced_scan a = reduce_scan(mesh, no_sensor), b = reduce_scan(spoilt, no_sensor);
   BOOST_TEST(a.number_of_samples == b.number_of_samples);
   BOOST_TEST(a.spacing == b.spacing);
   BOOST_TEST(a.fine.surfels.size() == b.fine.surfels.size());
@@ -504,7 +504,7 @@ BOOST_AUTO_TEST_CASE(nothing_to_prepare)
   duplicate.faces = {{0, 1, 0}};
   for (const Flat_mesh& mesh : {Flat_mesh(), points, flat, duplicate})
     for (const Flat_sensor& sensor : {no_sensor, orthographic({0, 0, -1}), perspective({0, 0, 1})}) {
-      const Prepared_scan scan = prepare_scan(mesh, sensor);
+      const Reduced_scan scan = reduce_scan(mesh, sensor);
       BOOST_TEST(scan.number_of_samples == 0u);
       BOOST_TEST(scan.fine.surfels.empty());
       BOOST_TEST(scan.coarse.surfels.empty());
@@ -516,7 +516,7 @@ BOOST_AUTO_TEST_CASE(nothing_to_prepare)
 BOOST_AUTO_TEST_CASE(a_vertex_at_the_viewpoint)
 {
   const Flat_mesh mesh = generated::bumps(130);
-  const Prepared_scan scan = prepare_scan(mesh, perspective(mesh.points[5000]));
+  const Reduced_scan scan = reduce_scan(mesh, perspective(mesh.points[5000]));
   check_finite(scan);
   BOOST_TEST(scan.number_of_samples > 0u);
 }
@@ -526,14 +526,14 @@ BOOST_AUTO_TEST_CASE(a_spike_and_an_island_far_away)
   const Flat_mesh mesh = generated::bumps(130);
   Flat_mesh spike = mesh, island = mesh;
   spike.points[5000] += Vector(0, 0, 1000);
-  const Prepared_scan with_spike = prepare_scan(spike, no_sensor);
+  const Reduced_scan with_spike = reduce_scan(spike, no_sensor);
   check_finite(with_spike);
   BOOST_TEST(with_spike.number_of_samples < 1000000u);
 
   const auto n = std::int32_t(mesh.points.size());
   island.points.insert(island.points.end(), {Vector(1e4, 0, 0), Vector(1e4, 0.01, 0), Vector(1e4, 0, 0.01)});
   island.faces.push_back({n, n + 1, n + 2});
-  const Prepared_scan with_island = prepare_scan(island, no_sensor), without = prepare_scan(mesh, no_sensor);
+  const Reduced_scan with_island = reduce_scan(island, no_sensor), without = reduce_scan(mesh, no_sensor);
   check_finite(with_island);
   BOOST_TEST(std::abs(with_island.spacing / without.spacing - 1) < 0.01);
   for (const Surfel_level* level : {&with_island.coarse, &with_island.fine}) {
@@ -554,5 +554,5 @@ BOOST_AUTO_TEST_CASE(dust_takes_larger_cells)
     dust.points.insert(dust.points.end(), {p, p + 1e-3 * random.vector(), p + 1e-3 * random.vector()});
     dust.faces.push_back({k, k + 1, k + 2});
   }
-  check_finite(prepare_scan(dust, no_sensor));
+  check_finite(reduce_scan(dust, no_sensor));
 }

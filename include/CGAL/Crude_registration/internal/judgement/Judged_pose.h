@@ -1,0 +1,40 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_JUDGED_POSE_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_JUDGED_POSE_H
+
+// A pose and how it explains the scans.
+
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+struct Agreement
+{
+  float overlap = 0;    // share of the source's probes with a piece of the target near that faces their way
+  float violations = 0; // of either scan's probes those in the other one's free space, as a share of theirs, summed
+
+  float score() const { return overlap - 2 * violations; }
+};
+
+// A pose after refinement, looked at closely.
+struct Judged_pose
+{
+  Pose pose;
+  Pose proposed; // before the refinement
+  Agreement agreement;
+  float score() const { return agreement.score(); }
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_JUDGED_POSE_H

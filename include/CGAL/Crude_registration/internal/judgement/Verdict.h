@@ -1,0 +1,34 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_VERDICT_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_VERDICT_H
+
+// What is to be believed of the poses that were found.
+
+#include <CGAL/Crude_registration/Registration_status.h>
+
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+struct Verdict
+{
+  Registration_status status = NOT_REGISTERED;
+  std::string reason;
+  double confidence = 0;
+  std::vector<std::string> free_motions;
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_VERDICT_H

@@ -1,0 +1,376 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MATCHING_ORIENTED_PAIR_SEARCH_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_MATCHING_ORIENTED_PAIR_SEARCH_H
+
+// The default search: pairs of oriented points of one reduced scan, with witnesses, looked up in the other.
+
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
+#include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
+#include <CGAL/Crude_registration/internal/judgement/agreement.h>
+#include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
+#include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
+#include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
+#include <CGAL/Crude_registration/internal/matching/extents.h>
+#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// One round of the search.
+struct Oriented_pair_round
+{
+  std::vector<double> scales; // lengths of the pairs, from 0, the least, to 1, the greatest; the longest first
+  int origins;                // vertices V of the source
+  int pairs;                  // vertices v1 for each of them and each scale
+  std::size_t looks;          // at most that many pairs (C, c1) of the target are looked at
+  int curvature_tolerance;    // in 1/128 of the inverse spacing, for scans without noise
+  std::size_t kept;           // distinct candidates that are proposed
+  std::size_t judged;         // those of them that are worth a close look
+};
+
+struct Oriented_pair_parameters
+{
+  double minimum_extent = 0, maximum_extent = default_maximum_extent; // bounds of the lengths, in shares of M
+  std::vector<Oriented_pair_round> rounds = {{{8. / 15}, 300, 5, 80000, 14, 32, 8},
+                                             {{8. / 15, 1. / 3}, 800, 5, 200000, 14, 60, 8},
+                                             {{5. / 6, 8. / 15, 1. / 3, 0.2}, 2000, 4, 1200000, 20, 300, 16}};
+  float source_half_width = 0.3f; // of the lengths, in spacings
+  float target_half_width = 0.7f;
+  float distance = 0.8f; // of a witness to the plane of its counterpart, in spacings
+  float minimal_cosine = 0.75f;
+  int witnesses = 16, witnesses_needed = 9;
+  float witness_reach = 0.22f; // of the witnesses from the middle of the pair, in shares of M
+
+  // The length of a scale, as a share of M.
+  float length(double scale) const { return float(minimum_extent + scale * (maximum_extent - minimum_extent)); }
+};
+
+// Proposes poses by pairs of oriented points: pairs (V, v1) of the source's surfels, with their normals and curvatures,
+// find pairs (C, c1) of the target's in an index (the sphere of section 6 of the paper, and the turn on the circle,
+// which the normals give); v2 and v3, on either side of the line, have to find a counterpart where the motion takes
+// them (the fourth vertex), and so have most of some further witnesses around. What is left is scored on the whole
+// scan, with free space.
+class Oriented_pair_search : public Candidate_source
+{
+public:
+  // The scans are kept by reference.
+  // \pre Both scans have at least four surfels.
+  Oriented_pair_search(const Reduced_scan& source, const Reduced_scan& target, Oriented_pair_parameters parameters,
+                       Execution execution)
+      : m_source(source), m_target(target), m_parameters(std::move(parameters)), m_execution(execution)
+  {
+    m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
+    m_extent = float((std::min)(source.extent, target.extent));
+    // Normals of surfels side by side on smooth bodies differ by up to 0.33.
+    const float turn = (std::max)(source.coarse.normal_noise, target.coarse.normal_noise);
+    const float noise = (std::max)(turn / 0.33f, 1.f);
+    m_curvature_noise = (std::min)(noise * std::sqrt(noise), 1.8f);
+    std::vector<Vector> points;
+    points.reserve(source.coarse.surfels.size());
+    for (const Surfel& s : source.coarse.surfels) points.push_back(s.position.cast<double>());
+    m_grid = Point_grid(points, double(2 * m_spacing));
+    // A ribbon, all of whose surfels are on the border, has no origins.
+    for (const std::int32_t v : shuffled(source.coarse.surfels.size(), 1))
+      if (!source.coarse.borders[std::size_t(v)]) m_origins.push_back(v);
+  }
+
+  // The distinct candidates of the next round.
+  bool next(Run_control& control, Proposals& proposals) override
+  {
+    if (m_origins.empty() || m_next_round == m_parameters.rounds.size()) return false;
+    const Oriented_pair_round& round = m_parameters.rounds[m_next_round++];
+    ++m_rounds.count;
+    const Stage_timer timer(m_rounds);
+    std::vector<Candidate> candidates = match(choose_pairs(round), round, control);
+    const Stage_timer score_timer(m_scores);
+    m_scores.count += candidates.size();
+    // More probes for fewer candidates: most are told to be wrong by the first few.
+    narrow(candidates, 12, (std::max)(8 * round.kept, candidates.size() / 8), control);
+    narrow(candidates, 40, 4 * round.kept, control);
+    score(candidates, 100, 0, control);
+    proposals.judged = round.judged;
+    for (const Candidate& c : candidates) {
+      if (proposals.poses.size() == round.kept) break;
+      if (std::none_of(proposals.poses.begin(), proposals.poses.end(),
+                       [&](const Pose& p) { return Pose_judge::are_close(c.pose, p, m_spacing); }))
+        proposals.poses.push_back(c.pose);
+    }
+    return true;
+  }
+
+  // The last round is most of the work.
+  double progress() const override { return m_next_round + 1 < m_parameters.rounds.size() ? 0 : 0.25; }
+
+  std::vector<Stage_record> stages() const override { return {m_rounds, m_pairs, m_looks, m_scores}; }
+
+private:
+  // Planes and spheres match themselves everywhere; so many candidates are enough to show it.
+  static constexpr std::size_t most_candidates = 100000;
+
+  struct Candidate
+  {
+    Pose pose;
+    float score;
+  };
+
+  struct Source_pair
+  {
+    std::int32_t first, second;
+    Pair_angles angles;
+    std::uint32_t count; // of target pairs to look at
+    std::uint8_t scale;
+  };
+
+  void index_scales(const std::vector<double>& scales)
+  {
+    const std::size_t old = m_indices.size();
+    for (const double scale : scales)
+      if (std::none_of(m_indices.begin(), m_indices.end(), [&](const auto& i) { return i.first == scale; }))
+        m_indices.emplace_back(scale, Surfel_pair_index());
+    for_each_index(m_execution, m_indices.size() - old, to_the_end(), [&](std::size_t i) {
+      auto& [scale, index] = m_indices[old + i];
+      index = Surfel_pair_index(m_target.coarse.surfels, m_parameters.length(scale) * m_extent,
+                                m_parameters.target_half_width * m_spacing);
+    });
+  }
+
+  // \pre `scale` is indexed
+  const Surfel_pair_index& index_of_scale(double scale) const
+  {
+    return std::find_if(m_indices.begin(), m_indices.end(), [&](const auto& i) { return i.first == scale; })->second;
+  }
+
+  // Leaves the best, by the score of that many probes: others for each candidate, since the candidates near the right
+  // pose are many, and any few probes may all lie outside of the overlap.
+  void narrow(std::vector<Candidate>& candidates, std::size_t probes, std::size_t left, Run_control& control) const
+  {
+    if (candidates.size() <= left) return;
+    score(candidates, probes, probes, control);
+    candidates.resize(left);
+  }
+
+  // Scores the candidates by that many probes of either scan, from `stride` further on for each candidate; the best
+  // come first.
+  void score(std::vector<Candidate>& candidates, std::size_t probes, std::size_t stride, Run_control& control) const
+  {
+    const Look look{m_parameters.distance * m_spacing, m_parameters.minimal_cosine, 1.2f * m_spacing};
+    for_each_index(m_execution, candidates.size(), control, [&](std::size_t i) {
+      candidates[i].score =
+          agreement(m_source, Probes(m_source.coarse, i * stride, probes), m_target,
+                    Probes(m_target.coarse, i * stride, probes), m_target.coarse, candidates[i].pose, look)
+              .score();
+    });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  }
+
+  // Pairs (V, v1) of the source for the next origins, the rarest in the target first: they say the most for each look.
+  std::vector<Source_pair> choose_pairs(const Oriented_pair_round& round)
+  {
+    const Stage_timer timer(m_pairs);
+    std::vector<Source_pair> pairs;
+    std::vector<std::vector<std::int32_t>> shells(round.scales.size());
+    const float width = m_parameters.source_half_width * m_spacing;
+    const float longest = m_parameters.length(round.scales.front()) * m_extent + width;
+    const auto least = float(m_parameters.minimum_extent) * m_extent,
+               greatest = float(m_parameters.maximum_extent) * m_extent;
+    index_scales(round.scales);
+    for (int o = 0; o < round.origins && m_next_origin < m_origins.size(); ++o, ++m_next_origin) {
+      const std::int32_t v = m_origins[m_next_origin];
+      const Surfel& origin = m_source.coarse.surfels[std::size_t(v)];
+      for (auto& s : shells) s.clear();
+      m_grid.for_each_within(origin.position.cast<double>(), double(longest), [&](std::int32_t j, double d2) {
+        if (m_source.coarse.borders[std::size_t(j)]) return;
+        const float d = std::sqrt(float(d2));
+        if (!(d >= least && d <= greatest)) return;
+        for (std::size_t k = 0; k < shells.size(); ++k)
+          if (std::abs(d - m_parameters.length(round.scales[k]) * m_extent) <= width) shells[k].push_back(j);
+      });
+      for (std::size_t k = 0; k < shells.size(); ++k) {
+        const Surfel_pair_index& index = index_of_scale(round.scales[k]);
+        for (int n = 0; n < round.pairs && !shells[k].empty(); ++n) {
+          const std::size_t r = Counter_random::mixed(std::uint64_t(v) * 64 + std::uint64_t(n)) % shells[k].size();
+          Source_pair p;
+          p.first = v;
+          p.second = shells[k][r];
+          shells[k][r] = shells[k].back();
+          shells[k].pop_back();
+          p.scale = std::uint8_t(k);
+          if (!pair_angles(origin, m_source.coarse.surfels[std::size_t(p.second)], p.angles)) continue;
+          p.count = std::uint32_t(index.count(p.angles));
+          if (p.count > 0) pairs.push_back(p);
+        }
+      }
+    }
+    if (m_next_origin == m_origins.size()) m_next_origin = 0;
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Source_pair& a, const Source_pair& b) { return a.count < b.count; });
+    m_pairs.count += pairs.size();
+    return pairs;
+  }
+
+  // A surfel of the source in the frame of a pair: pair_frame() about the pair's middle.
+  struct Witness
+  {
+    Vector_f position, normal;
+  };
+
+  // `frame`, `middle`: of the target's pair.
+  bool has_counterpart(const Witness& w, const Matrix_f& frame, const Vector_f& middle) const
+  {
+    const Vector_f p = frame * w.position + middle;
+    const int j = m_target.coarse.field.nearest(p);
+    if (j < 0) return false;
+    const Surfel& t = m_target.coarse.surfels[std::size_t(j)];
+    return std::abs(t.normal.dot(p - t.position)) <= m_parameters.distance * m_spacing &&
+           (frame * w.normal).dot(t.normal) >= m_parameters.minimal_cosine;
+  }
+
+  // Surfels around the pair. The first two are v2 and v3: furthest from the line through V and v1, on either side.
+  bool choose_witnesses(const Source_pair& p, std::vector<Witness>& witnesses) const
+  {
+    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
+                 &b = m_source.coarse.surfels[std::size_t(p.second)];
+    std::vector<std::int32_t> around;
+    const Vector_f middle = 0.5f * (a.position + b.position);
+    const float reach = (std::max)(m_parameters.witness_reach * m_extent, 4 * m_spacing);
+    m_grid.for_each_within(middle.cast<double>(), double(reach), [&](std::int32_t j, double) {
+      if (!m_source.coarse.borders[std::size_t(j)]) around.push_back(j);
+    });
+    if (around.size() < 10) return false;
+    const std::uint64_t seed = std::uint64_t(p.first) << 32 | std::uint64_t(p.second) << 8;
+    const Matrix_f to_pair = pair_frame(a, b).transpose();
+    witnesses.clear();
+    for (int w = 0; w < m_parameters.witnesses; ++w) {
+      const std::size_t r = Counter_random::mixed(seed + std::uint64_t(w)) % around.size();
+      const Surfel& s = m_source.coarse.surfels[std::size_t(around[r])];
+      witnesses.push_back({to_pair * (s.position - middle), to_pair * s.normal});
+    }
+    // The line is the first axis.
+    const auto arm = [](const Witness& w) -> Vector_f { return {0, w.position[1], w.position[2]}; };
+    std::iter_swap(witnesses.begin(),
+                   std::max_element(witnesses.begin(), witnesses.end(), [&](const Witness& x, const Witness& y) {
+                     return arm(x).squaredNorm() < arm(y).squaredNorm();
+                   }));
+    const Vector_f opposite = -arm(witnesses.front());
+    std::iter_swap(witnesses.begin() + 1,
+                   std::max_element(witnesses.begin() + 1, witnesses.end(), [&](const Witness& x, const Witness& y) {
+                     return arm(x).dot(opposite) < arm(y).dot(opposite);
+                   }));
+    return true;
+  }
+
+  // What a pair of the source matches.
+  struct Matches
+  {
+    std::size_t looks = 0;
+    std::vector<Candidate> candidates;
+  };
+
+  // The candidates of the pairs, in their order, as far as the round's number of looks goes.
+  std::vector<Candidate> match(const std::vector<Source_pair>& pairs, const Oriented_pair_round& round,
+                               Run_control& control)
+  {
+    const Stage_timer timer(m_looks);
+    std::vector<std::size_t> looks(round.scales.size(), round.looks / round.scales.size());
+    std::vector<const Source_pair*> chosen;
+    for (const Source_pair& p : pairs) {
+      if (looks[p.scale] < p.count) continue;
+      looks[p.scale] -= p.count;
+      chosen.push_back(&p);
+    }
+    // In blocks that are the same whatever the number of threads, and that hold no more matches than are wanted: of
+    // planes and spheres a single pair has thousands.
+    constexpr std::size_t block = 128;
+    std::vector<Candidate> candidates;
+    for (std::size_t from = 0, to = 0; from < chosen.size() && candidates.size() <= most_candidates && control.go_on();
+         from = to) {
+      for (std::size_t n = candidates.size(); to < chosen.size() && to - from < block && n <= most_candidates; ++to)
+        n += chosen[to]->count;
+      std::vector<Matches> found(to - from);
+      for_each_index(m_execution, found.size(), control,
+                     [&](std::size_t i) { found[i] = match(*chosen[from + i], round); });
+      for (const Matches& m : found) {
+        m_looks.count += m.looks;
+        candidates.insert(candidates.end(), m.candidates.begin(), m.candidates.end());
+      }
+    }
+    return candidates;
+  }
+
+  Matches match(const Source_pair& p, const Oriented_pair_round& round) const
+  {
+    Matches matches;
+    std::vector<Witness> witnesses;
+    if (!choose_witnesses(p, witnesses)) return matches;
+    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
+                 &b = m_source.coarse.surfels[std::size_t(p.second)];
+    const Vector_f middle = 0.5f * (a.position + b.position);
+    const Matrix_f source_frame = pair_frame(a, b).transpose();
+    const Curvature_window window(Pair_curvatures::of(a, b), int(float(round.curvature_tolerance) * m_curvature_noise));
+    const auto examine = [&](const Surfel_pair_index::Entry& e) {
+      const Surfel &c = m_target.coarse.surfels[e.first], &c1 = m_target.coarse.surfels[e.second];
+      const Matrix_f frame = pair_frame(c, c1);
+      const Vector_f there = 0.5f * (c.position + c1.position);
+      if (!has_counterpart(witnesses[0], frame, there) || !has_counterpart(witnesses[1], frame, there)) return;
+      int support = 2;
+      const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
+      for (int w = 2; w < n && support + n - w >= needed; ++w)
+        support += has_counterpart(witnesses[std::size_t(w)], frame, there);
+      if (support < needed) return;
+      Pose pose;
+      pose.rotation = frame * source_frame;
+      pose.translation = there - pose.rotation * middle;
+      matches.candidates.push_back({pose, 0});
+    };
+    const auto look = [&](const Surfel_pair_index::Entry* from, const Surfel_pair_index::Entry* to) {
+      matches.looks += std::size_t(to - from);
+      // Some at a time, without a branch: which of them have the curvatures cannot be foretold.
+      std::array<Surfel_pair_index::Entry, 64> hits;
+      while (from != to) {
+        const auto* const end = from + (std::min)(to - from, std::ptrdiff_t(hits.size()));
+        std::size_t n = 0;
+        for (; from != end; ++from) {
+          hits[n] = *from;
+          n += window.contains(from->curvatures);
+        }
+        for (std::size_t i = 0; i < n; ++i) examine(hits[i]);
+      }
+    };
+    index_of_scale(round.scales[p.scale]).for_each_run(p.angles, look);
+    return matches;
+  }
+
+  const Reduced_scan& m_source;
+  const Reduced_scan& m_target;
+  const Oriented_pair_parameters m_parameters;
+  const Execution m_execution;
+  float m_spacing = 0, m_extent = 0, m_curvature_noise = 1;
+  Point_grid m_grid;
+  std::vector<std::int32_t> m_origins;
+  std::vector<std::pair<double, Surfel_pair_index>> m_indices; // by scale
+  std::size_t m_next_origin = 0, m_next_round = 0;
+  Stage_record m_rounds{"propose"}, m_pairs{"propose: pairs"}, m_looks{"propose: looks"}, m_scores{"propose: scores"};
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_MATCHING_ORIENTED_PAIR_SEARCH_H

@@ -1,0 +1,86 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MOTION_REFINE_STEP_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_MOTION_REFINE_STEP_H
+
+// One step of the refinement of a pose by surfels, in float: what the search spends much of its time on.
+
+#include <CGAL/Crude_registration/internal/motion/Normal_equations.h>
+#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// One step of point-to-plane least squares (Chen and Medioni 1991) of some surfels of the source against the target's
+// nearest ones. Returns the number of correspondences; the pose is left as it is where they are fewer than six.
+struct Step
+{
+  float reach;          // largest distance to the plane
+  float minimal_cosine; // of the normals
+};
+
+template <class Surfel_range>
+int refine_step(const Surfel_range& source, const Surfel_level& target, const Step& step, Pose& pose)
+{
+  // The unknowns are a rotation about the middle of the correspondences, in units of their spread, and a translation.
+  constexpr std::size_t most = 4096;
+  thread_local std::vector<std::array<float, 7>> rows; // p, n, residual
+  rows.clear();
+  Vector_f middle = Vector_f::Zero();
+  for (const Surfel& s : source) {
+    const Vector_f p = pose(s.position);
+    const int j = target.field.nearest(p);
+    if (j < 0) continue;
+    const Surfel& t = target.surfels[std::size_t(j)];
+    const Vector_f e = p - t.position;
+    const float r = t.normal.dot(e);
+    if (std::abs(r) > step.reach || (e - r * t.normal).squaredNorm() > 4 * step.reach * step.reach) continue;
+    if ((pose.rotation * s.normal).dot(t.normal) < step.minimal_cosine) continue;
+    rows.push_back({p[0], p[1], p[2], t.normal[0], t.normal[1], t.normal[2], r});
+    middle += p;
+    if (rows.size() == most) break;
+  }
+  if (rows.size() < 6) return int(rows.size());
+  middle /= float(rows.size());
+  float spread = 0;
+  for (const auto& r : rows) spread += (Vector_f(r[0], r[1], r[2]) - middle).squaredNorm();
+  const float unit = std::sqrt(spread / float(rows.size()));
+  if (!(unit > 0)) return 0;
+
+  Normal_equations<float> equations;
+  const float inverse_unit = 1 / unit, inverse_reach2 = 1 / (step.reach * step.reach);
+  for (const auto& r : rows) {
+    const Vector_f n(r[3], r[4], r[5]);
+    equations.add(((Vector_f(r[0], r[1], r[2]) - middle) * inverse_unit).cross(n), n, -r[6],
+                  biweight(r[6] * r[6] * inverse_reach2));
+  }
+  // What the correspondences do not determine stays: a little of the identity.
+  equations.left.diagonal().array() += 1e-3f * float(rows.size()) / 6;
+  const Eigen::Matrix<float, 6, 1> x = equations.left.selfadjointView<Eigen::Lower>().ldlt().solve(equations.right);
+  const Vector_f w = x.head<3>() * inverse_unit, t = x.tail<3>();
+  const float angle = w.norm();
+  const Matrix_f r = angle > 1e-7f ? Eigen::AngleAxisf(angle, w / angle).toRotationMatrix() : Matrix_f::Identity();
+  pose.translation = r * (pose.translation - middle) + middle + t;
+  pose.rotation = r * pose.rotation;
+  return int(rows.size());
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_MOTION_REFINE_STEP_H

@@ -1,0 +1,62 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_PIPELINE_REGISTER_REDUCED_SCANS_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_PIPELINE_REGISTER_REDUCED_SCANS_H
+
+// The five steps of a registration, for scans that are reduced: propose, judge, refine, conclude.
+
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
+#include <CGAL/Crude_registration/internal/base/compiled.h>
+#include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/judgement/Verdict.h>
+#include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
+#include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
+#include <CGAL/Crude_registration/internal/motion/twist.h>
+#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+struct Registration_outcome
+{
+  std::vector<Judged_pose> poses;          // distinct, best first; in own frames, see to_input()
+  bool is_swapped = false;                 // the poses map the target to the source
+  Rigid_motion source_frame, target_frame; // own from input, of what the poses call source and target
+  Rigid_motion crude, motion;              // target from source, in the frames of the input
+  Agreement agreement;                     // of the refined motion
+  double overlap = 0, residual = 0;
+  bool source_has_free_space = false, target_has_free_space = false;
+  Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
+  Verdict verdict;
+  std::vector<Stage_record> stages;
+
+  Rigid_motion to_input(const Rigid_motion& own) const
+  {
+    const Rigid_motion in_input = target_frame.inverse() * own * source_frame;
+    return is_swapped ? in_input.inverse() : in_input;
+  }
+};
+
+// a and b are source and target; the smaller one of them is looked for in the other.
+Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,
+                                            const Candidate_factory& make_candidates, Execution execution,
+                                            Run_control& control);
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#ifndef CGAL_CRUDE_REGISTRATION_COMPILED
+#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans_impl.h>
+#endif
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_PIPELINE_REGISTER_REDUCED_SCANS_H

@@ -1,0 +1,171 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_PIPELINE_REGISTER_REDUCED_SCANS_IMPL_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_PIPELINE_REGISTER_REDUCED_SCANS_IMPL_H
+
+// The steps of register_reduced_scans.h.
+
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
+#include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
+#include <CGAL/Crude_registration/internal/judgement/agreement.h>
+#include <CGAL/Crude_registration/internal/judgement/conclude.h>
+#include <CGAL/Crude_registration/internal/judgement/free_motions.h>
+#include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
+#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The scan with fewer surfels is looked for in the other one; equal ones are told apart by size, so that swapping the
+// arguments gives the inverse.
+inline bool are_swapped(const Reduced_scan& source, const Reduced_scan& target)
+{
+  if (source.coarse.surfels.size() != target.coarse.surfels.size())
+    return source.coarse.surfels.size() > target.coarse.surfels.size();
+  return source.extent > target.extent;
+}
+
+// The noise of a level, in the unit of length; what sampling alone makes up is at least a fiftieth of the spacing.
+inline double noise(const Surfel_level& level)
+{
+  return double(level.spacing) * (std::max)(double(level.height_noise), 0.02);
+}
+
+// The share of a scan's surface that has the other one close by, facing the same way. `pose`: target from source.
+inline double overlap(const Reduced_scan& source, const Reduced_scan& target, const Pose& pose)
+{
+  std::vector<Surfel> some;
+  for (const std::int32_t i : shuffled(source.fine.surfels.size(), 3)) {
+    if (some.size() == 3000) break;
+    some.push_back(source.fine.surfels[std::size_t(i)]);
+  }
+  const float spacing = (std::max)(source.fine.spacing, target.fine.spacing);
+  return double(
+      agreement(source, some, target, std::vector<Surfel>(), target.fine, pose, {spacing, 0.7f, spacing}).overlap);
+}
+
+// Rounds of proposals, judged, until one pose is certain or there are no more: the distinct poses, best first. Those of
+// the rounds that were done if the run is stopped.
+inline std::vector<Judged_pose> propose_and_judge(Candidate_source& candidates, Pose_judge& judge, Stage_record& stage,
+                                                  Run_control& control)
+{
+  std::vector<Judged_pose> distinct;
+  for (;;) {
+    control.advance(candidates.progress());
+    Proposals proposals;
+    if (!candidates.next(control, proposals) || control.is_stopped()) return distinct;
+    const Stage_timer timer(stage);
+    const std::vector<Judged_pose> judged = judge(proposals.poses, proposals.judged);
+    if (control.is_stopped()) return distinct;
+    stage.count += judged.size();
+    for (const Judged_pose& p : judged) judge.add_distinct(p, distinct);
+    if (Pose_judge::is_certain(distinct)) return distinct;
+  }
+}
+
+// The best pose, refined on the planes of the fine surfels.
+inline Refinement refined(const Reduced_scan& source, const Reduced_scan& target, const Rigid_motion& motion,
+                          Execution execution)
+{
+  std::vector<Vector> points, normals;
+  for (const std::int32_t i : source.fine.probes) {
+    const Surfel& s = source.fine.surfels[std::size_t(i)];
+    points.push_back(s.position.cast<double>());
+    normals.push_back(s.normal.cast<double>());
+  }
+  const Nearest_surfel surface{target.fine.surfels, target.fine.field, double(target.fine.spacing)};
+  Refinement_options options{};
+  options.sampling_distance = (std::max)(source.spacing, target.spacing);
+  options.reach = 2 * options.sampling_distance;
+  options.tolerance = 1e-2; // of a sampling distance: far below the noise
+  return Point_to_plane<Nearest_surfel>(points, normals, surface, options, execution)(motion);
+}
+
+// What the refined motion says, in the frames of the input, and what is to be believed of it.
+inline void conclude(const Reduced_scan& source, const Reduced_scan& target, const Pose_judge& judge,
+                     const Refinement& refinement, bool is_interrupted, Registration_outcome& outcome)
+{
+  const Rigid_motion& own = refinement.motion;
+  outcome.motion = outcome.to_input(own);
+  outcome.crude = outcome.to_input(to_rigid_motion(outcome.poses.front().proposed));
+  outcome.residual = refinement.residual / (std::max)(source.spacing, target.spacing);
+  outcome.agreement = judge.assess(to_pose(own));
+  outcome.overlap =
+      outcome.is_swapped ? overlap(target, source, to_pose(own.inverse())) : overlap(source, target, to_pose(own));
+  const Matrix_6 target_to_input = adjoint(outcome.target_frame.inverse());
+  // The deviation follows the motion; seen from the other side it goes through the inverse.
+  const Matrix_6 to_input = outcome.is_swapped ? Matrix_6(adjoint(outcome.motion) * target_to_input) : target_to_input;
+  const Matrix_6 covariance = to_input * refinement.covariance * to_input.transpose();
+  outcome.covariance = 0.5 * (covariance + covariance.transpose()); // to the last bit
+
+  const double radius = 0.25 * source.extent;
+  std::vector<Vector_6> free =
+      find_free_motions(judge, own, refinement.covariance, own.translation, radius, double(source.coarse.spacing));
+  for (Vector_6& m : free) m = target_to_input * m;
+  const Free_motions named = name_free_motions(free, outcome.target_frame.inverse()(own.translation), radius);
+  const Fit fit = {double((std::min)(source.fine.surfels.size(), target.fine.surfels.size())), outcome.residual,
+                   refinement.residual / (std::max)(noise(source.fine), noise(target.fine)),
+                   refinement.free_motions.size()};
+  outcome.verdict = is_interrupted ? interrupted(outcome.poses, fit) : judge_poses(outcome.poses, fit, named);
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,
+                                                                           const Candidate_factory& make_candidates,
+                                                                           Execution execution, Run_control& control)
+{
+  Registration_outcome outcome;
+  outcome.source_has_free_space = a.depths.is_known();
+  outcome.target_has_free_space = b.depths.is_known();
+  outcome.is_swapped = are_swapped(a, b);
+  const Reduced_scan &source = outcome.is_swapped ? b : a, &target = outcome.is_swapped ? a : b;
+  outcome.source_frame = source.own_from_input;
+  outcome.target_frame = target.own_from_input;
+  outcome.stages = {{"reduce", a.number_of_samples + b.number_of_samples, a.seconds + b.seconds}};
+  constexpr std::size_t fewest_surfels = 4;
+  if (source.coarse.surfels.size() < fewest_surfels) {
+    outcome.verdict.reason = std::string("too few vertices: the surface of the ") +
+                             (outcome.is_swapped ? "target" : "source") + " is too small for its samples";
+    return outcome;
+  }
+  Stage_record judging{"judge"}, refining{"refine"}, concluding{"conclude"};
+  const std::unique_ptr<Candidate_source> candidates = make_candidates(source, target);
+  Pose_judge judge(source, target, execution, control);
+  outcome.poses = propose_and_judge(*candidates, judge, judging, control);
+  if (outcome.poses.empty()) {
+    outcome.verdict.reason = control.is_stopped() ? "interrupted: no overlap found so far"
+                                                  : "no overlap found: no motion brings any part of the scans together";
+  } else {
+    Refinement refinement;
+    {
+      const Stage_timer timer(refining);
+      refinement = refined(source, target, to_rigid_motion(outcome.poses.front().pose), execution);
+      refining.count = refinement.iterations;
+    }
+    const Stage_timer timer(concluding);
+    conclude(source, target, judge, refinement, control.is_stopped(), outcome);
+    concluding.count = outcome.poses.size();
+  }
+  for (const Stage_record& s : candidates->stages()) outcome.stages.push_back(s);
+  outcome.stages.insert(outcome.stages.end(), {judging, refining, concluding});
+  return outcome;
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_PIPELINE_REGISTER_REDUCED_SCANS_IMPL_H

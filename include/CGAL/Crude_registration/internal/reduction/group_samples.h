@@ -1,0 +1,98 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_GROUP_SAMPLES_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_GROUP_SAMPLES_H
+
+// Samples grouped by the cells of a grid to surfels: the surface at a resolution.
+
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
+#include <CGAL/Crude_registration/internal/lookup/cell_items.h>
+#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The samples (weight 1 each, or `weights`) of each cell of a grid whose cells meet at the origin, as surfels: means of
+// positions and normals. Samples of one cell that face away from their mean normal are another sheet and make a
+// surfel of their own. In the order of the cells; that of the samples does not matter but for rounding.
+inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std::vector<Vector_f>& normals,
+                                  const std::vector<float>& weights, float cell, Run_control& control)
+{
+  std::vector<Cell_item> items(points.size());
+  const float scale = 1 / cell;
+  constexpr float limit = float(1 << 20) - 1;
+  const auto coordinate = [&](float x) {
+    return std::uint64_t(std::int64_t(std::floor((std::min)((std::max)(x * scale, -limit), limit))) + (1 << 20));
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    control.check(i);
+    items[i] = {(coordinate(points[i][0]) << 42) | (coordinate(points[i][1]) << 21) | coordinate(points[i][2]),
+                std::uint32_t(i)};
+  }
+  sort_cell_items(items, control);
+
+  Surfel_level level;
+  level.spacing = cell;
+  struct Sum
+  {
+    Vector position = Vector::Zero(), normal = Vector::Zero();
+    double weight = 0;
+  };
+  const auto emit = [&](const Sum& s) {
+    const double length = s.normal.norm();
+    if (!(length > 0.4 * s.weight)) return; // no surface with a side
+    Surfel surfel;
+    surfel.position = (s.position / s.weight).cast<float>();
+    surfel.normal = (s.normal / length).cast<float>();
+    level.surfels.push_back(surfel);
+    level.weights.push_back(float(s.weight));
+  };
+  const auto is_less = [&](const Cell_item& a, const Cell_item& b) {
+    const Vector_f &p = points[a.index], &q = points[b.index];
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  };
+  std::size_t cells = 0;
+  for (std::size_t from = 0; from < items.size();) {
+    control.check(++cells);
+    Sum front, back;
+    std::size_t to = from, least = from;
+    Vector all = Vector::Zero();
+    for (; to < items.size() && items[to].key == items[from].key; ++to) {
+      all += normals[items[to].index].cast<double>();
+      if (is_less(items[to], items[least])) least = to;
+    }
+    // Two sheets of the same size leave no mean normal.
+    const Vector_f reference =
+        all.norm() > 0.01 * double(to - from) ? Vector_f(all.cast<float>()) : normals[items[least].index];
+    for (std::size_t k = from; k < to; ++k) {
+      const std::size_t i = items[k].index;
+      const double w = weights.empty() ? 1. : double(weights[i]);
+      Sum& sum = normals[i].dot(reference) >= 0 ? front : back;
+      sum.position += w * points[i].cast<double>();
+      sum.normal += w * normals[i].cast<double>();
+      sum.weight += w;
+    }
+    if (front.weight > 0) emit(front);
+    if (back.weight > 0) emit(back);
+    from = to;
+  }
+  return level;
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_GROUP_SAMPLES_H

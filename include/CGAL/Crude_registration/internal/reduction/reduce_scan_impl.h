@@ -1,0 +1,134 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_REDUCE_SCAN_IMPL_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_REDUCE_SCAN_IMPL_H
+
+// The reduction of a scan, step by step.
+
+#include <CGAL/Crude_registration/internal/lookup/Depth_buffer.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/reduction/describe_surfels.h>
+#include <CGAL/Crude_registration/internal/reduction/group_samples.h>
+#include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
+#include <CGAL/Crude_registration/internal/reduction/sample_surface.h>
+#include <CGAL/Crude_registration/internal/reduction/scan_frame.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The direction in which a surface without a known sensor may have been seen: against the mean normal, if nearly all of
+// it faces that way; null otherwise (closed meshes, several views).
+inline Vector_f likely_viewing_direction(const Oriented_samples& samples)
+{
+  Vector_f mean = Vector_f::Zero();
+  for (const Vector_f& n : samples.normals) mean += n;
+  const float length = mean.norm();
+  if (!(length > 0.5f * float(samples.normals.size()))) return Vector_f::Zero();
+  mean /= length;
+  std::size_t facing = 0;
+  for (const Vector_f& n : samples.normals) facing += n.dot(mean) > 0;
+  return double(facing) >= 0.97 * double(samples.normals.size()) ? Vector_f(-mean) : Vector_f(Vector_f::Zero());
+}
+
+// The share of the points that are further than `depth` behind what was seen in front of them. A scan's own points were
+// all seen.
+inline double hidden_share(const Depth_buffer& depths, const std::vector<Vector_f>& points, float depth)
+{
+  std::size_t known = 0, hidden = 0;
+  for (const Vector_f& p : points) {
+    const float d = depths.in_front(p);
+    if (!(d > -0.5f * (std::numeric_limits<float>::max)())) continue;
+    ++known;
+    hidden += d < -depth;
+  }
+  return known == 0 ? 0 : double(hidden) / double(known);
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
+                                                        const Reduction_parameters& parameters, Run_control& control)
+{
+  Reduced_scan scan;
+  Vector direction = Vector::Zero();
+  if (sensor.kind == Flat_sensor::ORTHOGRAPHIC) direction = sensor.vector;
+  if (sensor.kind == Flat_sensor::PERSPECTIVE) {
+    for (const Vector& p : mesh.points) direction += unit_or_zero(p - sensor.vector);
+    direction = unit_or_zero(direction);
+  }
+  control.check();
+  const std::vector<double> areas = face_areas(mesh, control);
+  scan.own_from_input = scan_frame(mesh, areas, direction, control);
+  const Rigid_motion& own = scan.own_from_input;
+  const Vector size = extent_in_frame(mesh, own, control);
+  scan.extent = size.sum() / 3;
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.);
+  if (!(area > 0)) return scan;
+
+  // What is not a surface but dust takes larger cells, until the surfels can be numbered.
+  const auto grouped = [&](const std::vector<Vector_f>& p, const std::vector<Vector_f>& n, const std::vector<float>& w,
+                           float cell) {
+    Surfel_level level = group_samples(p, n, w, cell, control);
+    while (level.surfels.size() > Surfel_field::maximum_size) level = group_samples(p, n, w, cell *= 1.5f, control);
+    return level;
+  };
+  // A surface cuts about 1.5 cells of a cubic grid for each area of the square of their edge length.
+  const double finest = std::sqrt(1.5 * area / parameters.fine_surfels);
+  const Oriented_samples samples = samples_of_faces(mesh, areas, own, sensor, 0.5 * finest, control);
+  scan.number_of_samples = samples.points.size();
+  if (samples.points.empty()) return scan;
+  scan.spacing = std::sqrt(area / double(samples.points.size()));
+  const double fine = (std::max)(2 * scan.spacing, finest);
+  const double coarse = (std::max)(3.5 * scan.spacing, std::sqrt(1.5 * area / parameters.coarse_surfels));
+
+  scan.fine = grouped(samples.points, samples.normals, {}, float(fine));
+  std::vector<Vector_f> points, normals;
+  points.reserve(scan.fine.surfels.size());
+  normals.reserve(scan.fine.surfels.size());
+  for (const Surfel& s : scan.fine.surfels) {
+    points.push_back(s.position);
+    normals.push_back(s.normal);
+  }
+  scan.coarse = grouped(points, normals, scan.fine.weights, float(coarse));
+  control.check();
+  describe_surfels(scan.coarse);
+  scan.fine.field = Surfel_field(scan.fine.surfels, scan.fine.spacing, 1.6f * scan.fine.spacing);
+  scan.coarse.field = Surfel_field(scan.coarse.surfels, 0.7f * scan.coarse.spacing, 2.f * scan.coarse.spacing);
+  scan.fine.probes = choose_probes(scan.fine.surfels, 4000);
+  scan.coarse.probes = choose_probes(scan.coarse.surfels, 600);
+  measure_noise(scan.fine);
+  measure_noise(scan.coarse);
+  control.check();
+
+  const float cell = float(2.2 * scan.spacing);
+  const Matrix_f rotation = own.rotation.cast<float>();
+  if (sensor.kind != Flat_sensor::UNKNOWN) {
+    scan.depths = Depth_buffer(sensor.kind, own(sensor.vector).cast<float>(), rotation * direction.cast<float>(),
+                               samples.points, cell, control);
+  } else {
+    const Vector_f likely = likely_viewing_direction(samples);
+    if (!likely.isZero()) {
+      Depth_buffer depths(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell, control);
+      if (hidden_share(depths, samples.points, float(0.1 * scan.extent)) < 0.02) scan.depths = std::move(depths);
+    }
+  }
+  return scan;
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_REDUCE_SCAN_IMPL_H

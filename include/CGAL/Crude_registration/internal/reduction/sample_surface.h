@@ -1,0 +1,110 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_SAMPLE_SURFACE_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_SAMPLE_SURFACE_H
+
+// The surface of a mesh as samples with normals, whether its vertices are samples or the corners of large faces.
+
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
+#include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The surface as samples with unit normals, in the frame of the scan's own.
+struct Oriented_samples
+{
+  std::vector<Vector_f> points;
+  std::vector<Vector_f> normals;
+};
+
+// Points about `distance` apart in rows along the longest edge of a face, at least one.
+inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face, const Rigid_motion& own,
+                        double distance, Oriented_samples& samples)
+{
+  const auto squared_length = [&](int i) {
+    return (mesh.points[std::size_t(face[std::size_t((i + 1) % 3)])] - mesh.points[std::size_t(face[std::size_t(i)])])
+        .squaredNorm();
+  };
+  const int longest = squared_length(0) >= squared_length(1) ? (squared_length(0) >= squared_length(2) ? 0 : 2)
+                                                             : (squared_length(1) >= squared_length(2) ? 1 : 2);
+  std::rotate(face.begin(), face.begin() + longest, face.end());
+  const Vector &a = mesh.points[std::size_t(face[0])], &b = mesh.points[std::size_t(face[1])],
+               &c = mesh.points[std::size_t(face[2])];
+  const Vector twice_area = area_vector(a, b, c), normal = unit_or_zero(twice_area);
+  const double length = (b - a).norm();
+  if (normal.isZero() || !(length > 0)) return;
+  constexpr double most = 2000; // points in a row, rows
+  const auto count = [&](double l) { return int(std::ceil((std::min)((std::max)(l / distance, 1.), most))); };
+  const int rows = count(twice_area.norm() / length);
+  for (int i = 0; i < rows; ++i) {
+    const double up = (i + 0.5) / rows;
+    const int points = count((1 - up) * length);
+    for (int j = 0; j < points; ++j) {
+      const double along = (1 - up) * (j + 0.5) / points;
+      samples.points.push_back(own(Vector(a + along * (b - a) + up * (c - a))).cast<float>());
+      samples.normals.push_back((own.rotation * normal).cast<float>());
+    }
+  }
+}
+
+// The vertices of the faces, as a scan's samples are; where the faces are so large that their vertices do not tell the
+// surface (a CAD model), points spread evenly over the faces, about `distance` from each other. Samples that are seen
+// at a grazing angle lie on the faces that bridge a depth edge: they are left out.
+inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vector<double>& areas,
+                                         const Rigid_motion& own, const Flat_sensor& sensor, double distance,
+                                         Run_control& control)
+{
+  Oriented_samples samples;
+  const Matrix_f rotation = own.rotation.cast<float>();
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.);
+  double area_of_large_faces = 0;
+  for (const double a : areas)
+    if (a > area / 1000) area_of_large_faces += a;
+  if (sensor.kind == Flat_sensor::UNKNOWN && area_of_large_faces > 0.2 * area) {
+    for (const auto& f : mesh.faces) {
+      control.check();
+      sample_face(mesh, f, own, distance, samples);
+    }
+    return samples;
+  }
+  constexpr double grazing = 0.12;
+  const std::vector<Vector> normals = vertex_normals(mesh, control);
+  samples.points.reserve(mesh.points.size());
+  samples.normals.reserve(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    control.check(i);
+    if (normals[i].isZero()) continue;
+    if (sensor.kind != Flat_sensor::UNKNOWN) {
+      const Vector sight = sensor.towards(mesh.points[i]);
+      if (-sight.dot(normals[i]) < grazing * sight.norm()) continue;
+    }
+    samples.points.push_back(own(mesh.points[i]).cast<float>());
+    samples.normals.push_back(rotation * normals[i].cast<float>());
+  }
+  return samples;
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_SAMPLE_SURFACE_H

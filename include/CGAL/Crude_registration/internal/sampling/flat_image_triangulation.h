@@ -1,0 +1,38 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_IMAGE_TRIANGULATION_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_IMAGE_TRIANGULATION_H
+
+// The door to the triangulation of range images.
+
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
+#include <CGAL/Crude_registration/internal/base/compiled.h>
+#include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
+#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Where samples are not joined: section 4 of the paper says five sampling distances.
+constexpr double default_maximum_edge_ratio = 5;
+
+// As triangulate_range_image() describes it. \throws Run_control::Stopped
+Flat_mesh flat_triangulation(const Flat_range_image& image, const Sampling& sampling,
+                             double maximum_edge_ratio = default_maximum_edge_ratio,
+                             Run_control& control = to_the_end());
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#ifndef CGAL_CRUDE_REGISTRATION_COMPILED
+#include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation_impl.h>
+#endif
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_IMAGE_TRIANGULATION_H

@@ -1,0 +1,35 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_POINT_TRIANGULATION_IMPL_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_POINT_TRIANGULATION_IMPL_H
+
+// The triangulation of points without a grid, behind its door.
+
+#include <CGAL/Crude_registration/internal/sampling/Projected_triangulation.h>
+#include <CGAL/Crude_registration/internal/sampling/Surface_from_points.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_point_triangulation.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+CGAL_CRUDE_REGISTRATION_INLINE Flat_mesh flat_triangulation(const std::vector<Vector>& points,
+                                                            const Flat_sensor& sensor, double maximum_edge_ratio,
+                                                            Run_control& control)
+{
+  if (sensor.kind == Flat_sensor::UNKNOWN) return Surface_from_points(points, maximum_edge_ratio, control)();
+  return Projected_triangulation(points, sensor, maximum_edge_ratio, control)();
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_POINT_TRIANGULATION_IMPL_H
