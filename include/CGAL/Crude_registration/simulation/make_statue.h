@@ -8,7 +8,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SIMULATION_MAKE_STATUE_H
 #define CGAL_CRUDE_REGISTRATION_SIMULATION_MAKE_STATUE_H
 
-#include <CGAL/Crude_registration/internal/simulation/Statue.h>
+#include <CGAL/Crude_registration/internal/simulation/statue_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
@@ -58,7 +58,7 @@ void make_statue(FaceGraph& mesh, int resolution, const NamedParameters& np = pa
   if (resolution < 8 || resolution > 1000)
     throw std::invalid_argument("make_statue: resolution has to be from 8 to 1000");
   const auto seed = static_cast<std::uint64_t>(internal::parameter(np, internal_np::random_seed, 0u));
-  internal::add_flat_mesh(internal::Statue(seed).surface(resolution), mesh, np);
+  internal::add_flat_mesh(internal::statue_mesh(seed, resolution), mesh, np);
 }
 
 } // namespace Crude_registration

@@ -11,12 +11,11 @@
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
-#include <CGAL/Crude_registration/internal/lookup/Triangle_tree.h>
+#include <CGAL/Crude_registration/internal/simulation/Ray_caster.h>
 #include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <cmath>
 #include <cstddef>
@@ -170,12 +169,6 @@ Memory is linear in the number of faces, construction \f$O(n \log n)\f$.
 */
 class Simulated_scene
 {
-  using Exact_predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Tree = internal::Triangle_tree<Exact_predicates>;
-
-  Tree::Triangles m_triangles;
-  Tree::type m_tree;
-
 public:
   /// prepares a triangle mesh; both sides of its faces are seen.
   /// \tparam FaceGraph a model of `FaceListGraph`
@@ -185,25 +178,8 @@ public:
   /// coordinate that is not finite.
   template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Simulated_scene(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values())
-  {
-    const internal::Flat_mesh flat =
-        internal::to_flat_mesh(mesh, internal::cgal_parameters(np), "simulate_range_image", "mesh");
-    auto point = [&](std::int32_t i) {
-      const internal::Vector& p = flat.points[static_cast<std::size_t>(i)];
-      return Exact_predicates::Point_3(p.x(), p.y(), p.z());
-    };
-    m_triangles.reserve(flat.faces.size());
-    for (const auto& f : flat.faces) {
-      const Exact_predicates::Triangle_3 triangle(point(f[0]), point(f[1]), point(f[2]));
-      if (!triangle.is_degenerate()) m_triangles.push_back(triangle);
-    }
-    if (m_triangles.empty()) throw std::invalid_argument("simulate_range_image: mesh has no face of positive area");
-    m_tree.rebuild(m_triangles.cbegin(), m_triangles.cend());
-    m_tree.build();
-  }
-
-  Simulated_scene(const Simulated_scene&) = delete;
-  Simulated_scene& operator=(const Simulated_scene&) = delete;
+      : m_rays(internal::to_flat_mesh(mesh, internal::cgal_parameters(np), "simulate_range_image", "mesh"))
+  {}
 
   /// the scene as seen by `camera`.
   /// \throws std::invalid_argument if a value of `camera` is out of range.
@@ -230,7 +206,8 @@ public:
         const internal::Vector direction =
             camera.is_perspective ? (pixel + focus * depth_axis).normalized() : depth_axis;
 
-        const Hit hit = first_hit(scene_from_sensor(origin), scene_from_sensor.rotation * direction);
+        const internal::Ray_caster::Hit hit =
+            m_rays.first_hit(scene_from_sensor(origin), scene_from_sensor.rotation * direction);
         if (!(hit.distance > 0)) continue;
         const internal::Counter_random line = random.stream(row * camera.columns + column);
         const double grazing = 1 - hit.cosine;
@@ -248,28 +225,7 @@ public:
   }
 
 private:
-  struct Hit
-  {
-    double distance; // zero: none
-    double cosine;   // between normal and line of sight, in [0, 1]
-  };
-
-  Hit first_hit(const internal::Vector& origin, const internal::Vector& direction) const
-  {
-    const Exact_predicates::Ray_3 ray(Exact_predicates::Point_3(origin.x(), origin.y(), origin.z()),
-                                      Exact_predicates::Vector_3(direction.x(), direction.y(), direction.z()));
-    const auto primitive = m_tree.first_intersected_primitive(ray);
-    if (!primitive) return {0, 0};
-    auto vertex = [&](int i) {
-      const Exact_predicates::Point_3& p = (*primitive)->vertex(i);
-      return internal::Vector(p.x(), p.y(), p.z());
-    };
-    const internal::Vector a = vertex(0);
-    const internal::Vector normal = internal::unit_or_zero(internal::area_vector(a, vertex(1), vertex(2)));
-    const double cosine = normal.dot(direction);
-    if (!(std::abs(cosine) > 1e-9)) return {0, 0}; // seen edge-on: the depth is not defined
-    return {normal.dot(a - origin) / cosine, std::abs(cosine)};
-  }
+  internal::Ray_caster m_rays;
 };
 
 /*!

@@ -1,0 +1,10 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The part base of the compiled core.
+
+#include <CGAL/Crude_registration/internal/base/for_each_index_impl.h>
