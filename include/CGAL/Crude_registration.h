@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_H
 #define CGAL_CRUDE_REGISTRATION_H
 
+// The whole package.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_RANGE_IMAGE_H
 #define CGAL_CRUDE_REGISTRATION_RANGE_IMAGE_H
 
+// A grid of samples, and the sensor that took them.
+
 #include <CGAL/Crude_registration/Sensor.h>
 
 #include <CGAL/number_utils.h>

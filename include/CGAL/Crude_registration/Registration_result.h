@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
 #define CGAL_CRUDE_REGISTRATION_REGISTRATION_RESULT_H
 
+// The answer of a registration.
+
 #include <CGAL/Crude_registration/Registration_status.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 

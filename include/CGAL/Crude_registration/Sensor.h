@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SENSOR_H
 #define CGAL_CRUDE_REGISTRATION_SENSOR_H
 
+// From where a scan was seen.
+
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 
 #include <CGAL/Aff_transformation_3.h>

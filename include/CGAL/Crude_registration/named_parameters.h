@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_NAMED_PARAMETERS_H
 #define CGAL_CRUDE_REGISTRATION_NAMED_PARAMETERS_H
 
+// The named parameters of this package, which chain with those of CGAL.
+
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/number_utils.h>
 

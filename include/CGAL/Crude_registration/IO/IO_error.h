@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_IO_ERROR_H
 #define CGAL_CRUDE_REGISTRATION_IO_IO_ERROR_H
 
+// The error of reading and writing files, which says where.
+
 #include <cstddef>
 #include <stdexcept>
 #include <string>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_READ_RANGE_IMAGE_H
 #define CGAL_CRUDE_REGISTRATION_IO_READ_RANGE_IMAGE_H
 
+// Reads range images.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/sampling/estimate_sensor.h>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_READ_SCAN_H
 #define CGAL_CRUDE_REGISTRATION_IO_READ_SCAN_H
 
+// Reads a scan from a file of any format, whatever it holds.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/Range_image.h>

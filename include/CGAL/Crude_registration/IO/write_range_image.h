@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_WRITE_RANGE_IMAGE_H
 #define CGAL_CRUDE_REGISTRATION_IO_WRITE_RANGE_IMAGE_H
 
+// Writes range images.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/IO/internal/atomic_file.h>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_MOTION_RIGID_MOTION_H
 #define CGAL_CRUDE_REGISTRATION_MOTION_RIGID_MOTION_H
 
+// The rigid motion of corresponding points, in the least squares sense.
+
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/motion/least_squares_motion.h>
 

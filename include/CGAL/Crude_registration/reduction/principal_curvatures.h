@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_REDUCTION_PRINCIPAL_CURVATURES_H
 #define CGAL_CRUDE_REGISTRATION_REDUCTION_PRINCIPAL_CURVATURES_H
 
+// The principal curvatures at the vertices of a mesh.
+
 #include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
 #include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>

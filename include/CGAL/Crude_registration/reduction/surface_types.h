@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_REDUCTION_SURFACE_TYPES_H
 #define CGAL_CRUDE_REGISTRATION_REDUCTION_SURFACE_TYPES_H
 
+// The types of the surface at the vertices of a mesh.
+
 #include <CGAL/Crude_registration/internal/reduction/classify_vertices.h>
 #include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SAMPLING_TRIANGULATE_POINTS_H
 #define CGAL_CRUDE_REGISTRATION_SAMPLING_TRIANGULATE_POINTS_H
 
+// Triangulates points without a grid.
+
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/to_flat_points.h>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SAMPLING_TRIANGULATE_RANGE_IMAGE_H
 #define CGAL_CRUDE_REGISTRATION_SAMPLING_TRIANGULATE_RANGE_IMAGE_H
 
+// Triangulates a range image over its grid.
+
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/sampling/estimate_flat_sensor.h>
 #include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>

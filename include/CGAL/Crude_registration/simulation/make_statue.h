@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SIMULATION_MAKE_STATUE_H
 #define CGAL_CRUDE_REGISTRATION_SIMULATION_MAKE_STATUE_H
 
+// Makes a body to be scanned.
+
 #include <CGAL/Crude_registration/internal/simulation/statue_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_SIMULATION_SIMULATE_RANGE_IMAGE_H
 #define CGAL_CRUDE_REGISTRATION_SIMULATION_SIMULATE_RANGE_IMAGE_H
 
+// Takes a range image of a mesh, as a scanner would.
+
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>

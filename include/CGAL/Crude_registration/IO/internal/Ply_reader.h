@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_PLY_READER_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_PLY_READER_H
 
+// Reads PLY, with a range grid, faces or points alone.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
 

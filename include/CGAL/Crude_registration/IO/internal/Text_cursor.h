@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_TEXT_CURSOR_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_TEXT_CURSOR_H
 
+// Walks through a text by lines and words, and knows where it is.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 
 #include <charconv>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_ATOMIC_FILE_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_ATOMIC_FILE_H
 
+// Writes a file whole or not at all.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 
 #include <cstdio>

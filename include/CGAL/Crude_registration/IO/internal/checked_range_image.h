@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_CHECKED_RANGE_IMAGE_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_CHECKED_RANGE_IMAGE_H
 
+// A range image made of what a file holds, its faults told as those of the file.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/Range_image.h>
 

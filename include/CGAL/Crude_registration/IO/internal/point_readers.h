@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_POINT_READERS_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_POINT_READERS_H
 
+// Reads points as text, and the scans of PTX files.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>

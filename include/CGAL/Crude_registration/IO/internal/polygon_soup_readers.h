@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_POLYGON_SOUP_READERS_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_POLYGON_SOUP_READERS_H
 
+// Reads polygons: OFF, OBJ and STL.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
 #include <CGAL/Crude_registration/IO/internal/point_readers.h>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_READ_FILE_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_READ_FILE_H
 
+// The bytes of a file.
+
 #include <CGAL/Crude_registration/IO/IO_error.h>
 
 #include <cstdio>

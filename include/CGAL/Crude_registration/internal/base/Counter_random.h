@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_COUNTER_RANDOM_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_COUNTER_RANDOM_H
 
+// Random numbers by counting: the same, whatever the order in which they are asked for.
+
 #include <bitset>
 #include <cmath>
 #include <cstddef>

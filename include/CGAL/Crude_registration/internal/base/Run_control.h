@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_RUN_CONTROL_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_RUN_CONTROL_H
 
+// Whether a run is to go on: its visitor and its time budget.
+
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <atomic>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_FAST_ANGLES_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_FAST_ANGLES_H
 
+// Angles from cosines and from tangents, the same bits with every library.
+
 #include <CGAL/number_type_config.h>
 
 #include <algorithm>

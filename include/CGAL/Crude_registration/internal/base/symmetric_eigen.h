@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_SYMMETRIC_EIGEN_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_SYMMETRIC_EIGEN_H
 
+// Eigenvalues and eigenvectors of small symmetric matrices.
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/SVD>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_DEPTH_BUFFER_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_DEPTH_BUFFER_H
 
+// What a sensor saw, as an image of depths: where in front of it there is nothing.
+
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_POINT_GRID_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_POINT_GRID_H
 
+// Points in the cells of a grid: those within a radius, and the pairs of them.
+
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 #include <algorithm>

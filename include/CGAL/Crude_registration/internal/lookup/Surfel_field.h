@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_FIELD_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_FIELD_H
 
+// The nearest surfel to any place, by one look-up.
+
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 #include <algorithm>

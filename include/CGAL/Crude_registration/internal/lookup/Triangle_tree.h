@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_TRIANGLE_TREE_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_TRIANGLE_TREE_H
 
+// CGAL's tree of triangles, under the names that its versions have for it.
+
 #include <CGAL/AABB_tree.h>
 #include <CGAL/version.h>
 #if CGAL_VERSION_NR >= CGAL_VERSION_NUMBER(6, 0, 0)

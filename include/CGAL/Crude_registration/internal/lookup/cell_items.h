@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_CELL_ITEMS_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_CELL_ITEMS_H
 
+// Items sorted by the cell of a grid that they are in.
+
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 
 #include <boost/sort/spreadsort/integer_sort.hpp>

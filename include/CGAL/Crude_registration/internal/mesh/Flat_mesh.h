@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_FLAT_MESH_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_FLAT_MESH_H
 
+// A triangle mesh as two flat arrays.
+
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 #include <array>

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_ADD_FLAT_MESH_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_ADD_FLAT_MESH_H
 
+// The door from flat arrays to the models of FaceGraph.
+
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_FLAT_MESH_REPAIR_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_FLAT_MESH_REPAIR_H
 
+// Makes a manifold of triangles.
+
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_MESH_GEOMETRY_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_MESH_GEOMETRY_H
 
+// Areas, normals, borders and neighbours of a flat mesh.
+
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>

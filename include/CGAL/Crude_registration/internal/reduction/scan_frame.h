@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_SCAN_FRAME_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_SCAN_FRAME_H
 
+// A frame of a scan's own, which moves with it.
+
 #include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>

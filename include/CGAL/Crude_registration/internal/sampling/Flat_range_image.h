@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_RANGE_IMAGE_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_FLAT_RANGE_IMAGE_H
 
+// A range image as flat arrays, and how densely it was sampled.
+
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 

@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_PROJECTED_TRIANGULATION_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_PROJECTED_TRIANGULATION_H
 
+// The triangulation of points by their projections along the lines of sight.
+
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>

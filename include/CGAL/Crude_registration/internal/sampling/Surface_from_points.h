@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_SURFACE_FROM_POINTS_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_SURFACE_FROM_POINTS_H
 
+// A surface of points whose sensor is not known.
+
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/sampling/advancing_front.h>

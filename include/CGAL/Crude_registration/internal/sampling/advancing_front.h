@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_ADVANCING_FRONT_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_ADVANCING_FRONT_H
 
+// CGAL's advancing front, whose answer depends on the points alone.
+
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 
 #include <CGAL/Advancing_front_surface_reconstruction.h>

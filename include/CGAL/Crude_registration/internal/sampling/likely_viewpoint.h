@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_LIKELY_VIEWPOINT_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_LIKELY_VIEWPOINT_H
 
+// The place from where most of a surface is visible.
+
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>

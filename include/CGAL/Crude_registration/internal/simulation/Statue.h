@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SIMULATION_STATUE_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SIMULATION_STATUE_H
 
+// The body of the simulation, as an implicit surface.
+
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/simulation/marching_tetrahedra.h>
 

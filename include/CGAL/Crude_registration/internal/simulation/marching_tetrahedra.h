@@ -8,6 +8,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SIMULATION_MARCHING_TETRAHEDRA_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_SIMULATION_MARCHING_TETRAHEDRA_H
 
+// The mesh of an implicit surface.
+
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 
 #include <algorithm>
