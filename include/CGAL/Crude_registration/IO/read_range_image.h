@@ -11,51 +11,16 @@
 // Reads range images.
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/IO/internal/read_flat_scan.h>
+#include <CGAL/Crude_registration/IO/internal/to_kernel.h>
 #include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
-#include <CGAL/Crude_registration/IO/internal/Ply_reader.h>
-#include <CGAL/Crude_registration/IO/internal/checked_range_image.h>
-#include <CGAL/Crude_registration/IO/internal/read_file.h>
 
 #include <istream>
 #include <iterator>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
-namespace internal {
-
-// The range image in a PLY file that has one; the sensor as the file says, or estimated from the grid.
-template <class Kernel>
-Range_image<Kernel> to_range_image(Ply_contents&& ply, const std::string& file)
-{
-  typedef typename Kernel::Point_3 Point_3;
-  if (ply.points.empty()) throw IO_error(file, "the range image has no samples");
-  std::vector<Point_3> points;
-  points.reserve(ply.points.size());
-  for (const auto& p : ply.points) points.emplace_back(p[0], p[1], p[2]);
-  Range_image<Kernel> image =
-      checked_range_image<Kernel>(ply.columns, ply.rows, std::move(points), std::move(ply.grid), file);
-  const auto& v = ply.viewpoint;
-  const auto& d = ply.viewing_direction;
-  if (ply.has_viewpoint) image.set_sensor(Sensor<Kernel>::perspective(Point_3(v[0], v[1], v[2])));
-  else if (ply.has_viewing_direction)
-    image.set_sensor(Sensor<Kernel>::orthographic(typename Kernel::Vector_3(d[0], d[1], d[2])));
-  else image.set_sensor(estimate_sensor(image));
-  return image;
-}
-
-template <class Kernel>
-void parse_range_image(const std::string& data, const std::string& file, Range_image<Kernel>& image)
-{
-  Ply_contents ply = read_ply(data, file);
-  if (!ply.has_grid) throw IO_error(file, "not a range image: the file has no 'element range_grid'");
-  image = to_range_image<Kernel>(std::move(ply), file);
-}
-
-} // namespace internal
 
 /*!
 \ingroup PkgCrudeRegistrationRef
@@ -78,7 +43,8 @@ NaN or infinite; there is no grid or no sample.
 template <class Kernel>
 void read_range_image(const std::string& filename, Range_image<Kernel>& image)
 {
-  internal::parse_range_image(internal::read_file(filename), filename, image);
+  image = internal::to_range_image<Kernel>(internal::parse_flat_range_image(internal::read_file(filename), filename),
+                                           filename);
 }
 
 /*!
@@ -93,7 +59,7 @@ void read_range_image(std::istream& in, Range_image<Kernel>& image, const std::s
 {
   const std::string data((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (in.bad()) throw IO_error(name, "the stream cannot be read");
-  internal::parse_range_image(data, name, image);
+  image = internal::to_range_image<Kernel>(internal::parse_flat_range_image(data, name), name);
 }
 
 } // namespace Crude_registration

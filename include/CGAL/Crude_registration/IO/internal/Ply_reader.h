@@ -11,6 +11,7 @@
 // Reads PLY, with a range grid, faces or points alone.
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/IO/internal/Ply_elements.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -52,13 +54,13 @@ public:
   {
     read_header();
     if (m_format == ASCII) {
-      Ascii source(m_data.substr(m_body), m_file, m_body_line);
+      Ply_ascii source(m_data.substr(m_body), m_file, m_body_line);
       read_body(source);
     } else if ((m_format == BINARY_LITTLE_ENDIAN) == is_little_endian()) {
-      Binary<false> source(m_data, m_body, m_file);
+      Ply_binary<false> source(m_data, m_body, m_file);
       read_body(source);
     } else {
-      Binary<true> source(m_data, m_body, m_file);
+      Ply_binary<true> source(m_data, m_body, m_file);
       read_body(source);
     }
     check_grid();
@@ -73,50 +75,6 @@ private:
     BINARY_LITTLE_ENDIAN,
     BINARY_BIG_ENDIAN
   };
-  enum Type
-  {
-    INT8,
-    UINT8,
-    INT16,
-    UINT16,
-    INT32,
-    UINT32,
-    FLOAT32,
-    FLOAT64
-  };
-  enum Role
-  {
-    SKIP,
-    X,
-    Y,
-    Z,
-    INDICES
-  };
-
-  struct Property
-  {
-    std::string name;
-    Type type;
-    bool is_list;
-    Type count_type;
-    Role role;
-  };
-
-  struct Element
-  {
-    std::string name;
-    std::uint64_t count;
-    std::size_t line;
-    std::vector<Property> properties;
-
-    Property* find(std::string_view property)
-    {
-      for (Property& p : properties)
-        if (p.name == property) return &p;
-      return nullptr;
-    }
-  };
-
   static bool is_little_endian()
   {
     const std::uint16_t one = 1;
@@ -158,10 +116,10 @@ private:
 
   void read_element(Text_cursor& cursor)
   {
-    Element e;
+    Ply_element e;
     e.name = std::string(cursor.word());
     if (e.name.empty()) cursor.fail("the element has no name");
-    for (const Element& other : m_elements)
+    for (const Ply_element& other : m_elements)
       if (other.name == e.name) cursor.fail("the element '" + shown(e.name) + "' is declared twice");
     const long long count = cursor.integer("the number of elements");
     if (count < 0) cursor.fail("the number of elements is negative");
@@ -173,33 +131,33 @@ private:
   void read_property(Text_cursor& cursor)
   {
     if (m_elements.empty()) cursor.fail("a property before the first element");
-    Property p;
+    Ply_property p;
     std::string_view type = cursor.word();
     p.is_list = type == "list";
-    p.count_type = UINT8;
+    p.count_type = Ply_type::UINT8;
     if (p.is_list) {
       p.count_type = read_type(cursor, cursor.word());
-      if (p.count_type == FLOAT32 || p.count_type == FLOAT64)
+      if (p.count_type == Ply_type::FLOAT32 || p.count_type == Ply_type::FLOAT64)
         cursor.fail("the length of a list is not an integer type");
       type = cursor.word();
     }
     p.type = read_type(cursor, type);
     p.name = std::string(cursor.word());
     if (p.name.empty()) cursor.fail("the property has no name");
-    p.role = SKIP;
+    p.role = Ply_role::SKIP;
     m_elements.back().properties.push_back(p);
   }
 
-  static Type read_type(const Text_cursor& cursor, std::string_view name)
+  static Ply_type read_type(const Text_cursor& cursor, std::string_view name)
   {
-    if (name == "char" || name == "int8") return INT8;
-    if (name == "uchar" || name == "uint8") return UINT8;
-    if (name == "short" || name == "int16") return INT16;
-    if (name == "ushort" || name == "uint16") return UINT16;
-    if (name == "int" || name == "int32") return INT32;
-    if (name == "uint" || name == "uint32") return UINT32;
-    if (name == "float" || name == "float32") return FLOAT32;
-    if (name == "double" || name == "float64") return FLOAT64;
+    if (name == "char" || name == "int8") return Ply_type::INT8;
+    if (name == "uchar" || name == "uint8") return Ply_type::UINT8;
+    if (name == "short" || name == "int16") return Ply_type::INT16;
+    if (name == "ushort" || name == "uint16") return Ply_type::UINT16;
+    if (name == "int" || name == "int32") return Ply_type::INT32;
+    if (name == "uint" || name == "uint32") return Ply_type::UINT32;
+    if (name == "float" || name == "float32") return Ply_type::FLOAT32;
+    if (name == "double" || name == "float64") return Ply_type::FLOAT64;
     cursor.fail("unknown type: '" + shown(name) + "'");
   }
 
@@ -235,23 +193,24 @@ private:
   void assign_roles(const Text_cursor& cursor)
   {
     bool has_vertices = false;
-    for (Element& e : m_elements) {
+    for (Ply_element& e : m_elements) {
       if (e.name == "vertex") {
         has_vertices = true;
         m_vertex_count = e.count;
-        const char* names[3] = {"x", "y", "z"};
-        for (int i = 0; i < 3; ++i) {
-          Property* p = e.find(names[i]);
+        const std::pair<const char*, Ply_role> coordinates[] = {
+            {"x", Ply_role::X}, {"y", Ply_role::Y}, {"z", Ply_role::Z}};
+        for (const auto& [name, role] : coordinates) {
+          Ply_property* p = e.find(name);
           if (p == nullptr || p->is_list)
-            throw IO_error(m_file, e.line, std::string("the vertices have no property '") + names[i] + "'");
-          p->role = static_cast<Role>(X + i);
+            throw IO_error(m_file, e.line, std::string("the vertices have no property '") + name + "'");
+          p->role = role;
         }
       } else if (e.name == "range_grid" || e.name == "face") {
-        Property* p = e.find("vertex_indices");
+        Ply_property* p = e.find("vertex_indices");
         if (p == nullptr) p = e.find("vertex_index");
-        if (p == nullptr || !p->is_list || p->type == FLOAT32 || p->type == FLOAT64)
+        if (p == nullptr || !p->is_list || p->type == Ply_type::FLOAT32 || p->type == Ply_type::FLOAT64)
           throw IO_error(m_file, e.line, "the element '" + e.name + "' has no list of integers 'vertex_indices'");
-        p->role = INDICES;
+        p->role = Ply_role::INDICES;
       }
       if (e.name == "range_grid") {
         m_contents.has_grid = true;
@@ -271,134 +230,12 @@ private:
 
   // --- body ---------------------------------------------------------------------------------------------------------
 
-  // One element a line.
-  class Ascii
-  {
-  public:
-    Ascii(std::string_view text, const std::string& file, std::size_t line) : m_cursor(text, file, line) {}
-
-    void begin_element(const Element& e, std::uint64_t i)
-    {
-      if (!m_cursor.next_line())
-        throw IO_error(m_cursor.file(), m_cursor.next_line_number(),
-                       "the file ends after " + std::to_string(i) + " of " + std::to_string(e.count) + " elements '" +
-                           e.name + "'");
-    }
-    void end_element()
-    {
-      if (m_cursor.has_word()) m_cursor.fail("more values than the header declares");
-    }
-    double number(const Property& p) { return m_cursor.number(p.name.c_str()); }
-    long long count(const Property&) { return m_cursor.integer("the length of a list"); }
-    long long index(const Property& p) { return m_cursor.integer(p.name.c_str()); }
-    void skip(const Property&)
-    {
-      if (m_cursor.word().empty()) m_cursor.fail("fewer values than the header declares");
-    }
-    [[noreturn]] void fail(const std::string& what) const { m_cursor.fail(what); }
-
-  private:
-    Text_cursor m_cursor;
-  };
-
-  template <bool swap>
-  class Binary
-  {
-  public:
-    Binary(std::string_view data, std::size_t position, const std::string& file)
-        : m_data(data), m_position(position), m_begin(position), m_file(file)
-    {}
-
-    void begin_element(const Element& e, std::uint64_t i)
-    {
-      m_element = &e;
-      m_index = i;
-      m_begin = m_position;
-    }
-    void end_element() {}
-    double number(const Property& p)
-    {
-      switch (p.type) {
-      case INT8:
-        return get<std::int8_t>();
-      case UINT8:
-        return get<std::uint8_t>();
-      case INT16:
-        return get<std::int16_t>();
-      case UINT16:
-        return get<std::uint16_t>();
-      case INT32:
-        return get<std::int32_t>();
-      case UINT32:
-        return get<std::uint32_t>();
-      case FLOAT32:
-        return static_cast<double>(get<float>());
-      default:
-        return get<double>();
-      }
-    }
-    long long count(const Property& p) { return integer(p.count_type); }
-    long long index(const Property& p) { return integer(p.type); }
-    void skip(const Property& p) { advance(size(p.type)); }
-    [[noreturn]] void fail(const std::string& what) const { fail_at(m_begin, what); }
-
-  private:
-    static std::size_t size(Type t) { return t <= UINT8 ? 1 : t <= UINT16 ? 2 : t == FLOAT64 ? 8 : 4; }
-    long long integer(Type t)
-    {
-      switch (t) {
-      case INT8:
-        return get<std::int8_t>();
-      case UINT8:
-        return get<std::uint8_t>();
-      case INT16:
-        return get<std::int16_t>();
-      case UINT16:
-        return get<std::uint16_t>();
-      case INT32:
-        return get<std::int32_t>();
-      default:
-        return get<std::uint32_t>();
-      }
-    }
-    template <class T>
-    T get()
-    {
-      const std::size_t at = m_position;
-      advance(sizeof(T));
-      unsigned char bytes[sizeof(T)];
-      std::memcpy(bytes, m_data.data() + at, sizeof(T));
-      if (swap) std::reverse(bytes, bytes + sizeof(T));
-      T value;
-      std::memcpy(&value, bytes, sizeof(T));
-      return value;
-    }
-    void advance(std::size_t bytes)
-    {
-      if (m_data.size() - m_position < bytes)
-        fail_at(m_data.size(), "the file ends after " + std::to_string(m_index) + " of " +
-                                   std::to_string(m_element->count) + " elements '" + m_element->name + "'");
-      m_position += bytes;
-    }
-    [[noreturn]] void fail_at(std::size_t byte, const std::string& what) const
-    {
-      throw IO_error(m_file, "byte " + std::to_string(byte) + ": " + what);
-    }
-
-    std::string_view m_data;
-    std::size_t m_position;
-    std::size_t m_begin; // of the current element
-    const std::string& m_file;
-    const Element* m_element = nullptr;
-    std::uint64_t m_index = 0;
-  };
-
   template <class Source>
   void read_body(Source& source)
   {
     std::array<double, 3> xyz = {0, 0, 0};
     std::vector<long long> indices;
-    for (const Element& e : m_elements) {
+    for (const Ply_element& e : m_elements) {
       if (e.properties.empty()) continue;
       const bool is_vertex = e.name == "vertex", is_grid = e.name == "range_grid", is_face = e.name == "face";
       // a count that the file cannot hold must not make us ask for the memory
@@ -408,8 +245,10 @@ private:
       if (is_face) m_contents.faces.reserve(expected);
       for (std::uint64_t i = 0; i < e.count; ++i) {
         source.begin_element(e, i);
-        for (const Property& p : e.properties) {
-          if (p.role == X || p.role == Y || p.role == Z) xyz[static_cast<std::size_t>(p.role - X)] = source.number(p);
+        for (const Ply_property& p : e.properties) {
+          if (p.role == Ply_role::X) xyz[0] = source.number(p);
+          else if (p.role == Ply_role::Y) xyz[1] = source.number(p);
+          else if (p.role == Ply_role::Z) xyz[2] = source.number(p);
           else if (p.is_list) read_list(source, p, indices);
           else source.skip(p);
         }
@@ -428,13 +267,13 @@ private:
     }
   }
 
-  // The list is kept if its role is INDICES: indices of vertices then.
+  // The list is kept if its role is Ply_role::INDICES: indices of vertices then.
   template <class Source>
-  void read_list(Source& source, const Property& p, std::vector<long long>& indices) const
+  void read_list(Source& source, const Ply_property& p, std::vector<long long>& indices) const
   {
     const long long length = source.count(p);
     if (length < 0) source.fail("the length of a list is negative");
-    if (p.role == SKIP) {
+    if (p.role == Ply_role::SKIP) {
       for (long long k = 0; k < length; ++k) source.skip(p);
       return;
     }
@@ -468,7 +307,7 @@ private:
   std::string_view m_data;
   const std::string& m_file;
   Format m_format = NO_FORMAT;
-  std::vector<Element> m_elements;
+  std::vector<Ply_element> m_elements;
   std::uint64_t m_vertex_count = 0;
   std::size_t m_body = 0;      // where the body starts, in bytes
   std::size_t m_body_line = 0; // and in lines

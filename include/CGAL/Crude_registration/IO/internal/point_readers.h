@@ -11,10 +11,9 @@
 // Reads points as text, and the scans of PTX files.
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
-#include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
-#include <CGAL/Crude_registration/IO/internal/checked_range_image.h>
+#include <CGAL/Crude_registration/IO/internal/read_flat_scan.h>
 
 #include <Eigen/LU>
 
@@ -23,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -151,10 +151,8 @@ private:
 // A PTX file of one scan: columns, rows, the scanner's position and axes, the motion to the world as a matrix for row
 // vectors, then the samples in the scanner's frame, column by column, 0 0 0 where there is none. The image is in the
 // world's frame, its sensor at the scanner's place there.
-template <class Kernel>
-Range_image<Kernel> read_ptx(std::string_view text, const std::string& file)
+inline Flat_scan_file read_ptx(std::string_view text, const std::string& file)
 {
-  typedef typename Kernel::Point_3 Point_3;
   Text_cursor cursor(text, file);
   const auto next_line = [&](const char* what) {
     if (!cursor.next_line()) cursor.fail(std::string("the file ends before ") + what);
@@ -190,8 +188,13 @@ Range_image<Kernel> read_ptx(std::string_view text, const std::string& file)
   if (!((r * r.transpose()).isIdentity(1e-3) && r.determinant() > 0))
     cursor.fail("the motion of the scanner is not rigid");
 
-  std::vector<Point_3> points;
-  std::vector<std::int32_t> grid(columns * rows, -1);
+  if (columns > std::size_t((std::numeric_limits<std::int32_t>::max)()) / rows)
+    cursor.fail("columns times rows is above 2^31 - 1");
+  Flat_scan_file scan;
+  scan.kind = Flat_scan_file::RANGE_IMAGE;
+  scan.columns = columns;
+  scan.rows = rows;
+  scan.grid.assign(columns * rows, -1);
   for (std::size_t column = 0; column < columns; ++column) {
     for (std::size_t row = 0; row < rows; ++row) {
       if (!cursor.next_line())
@@ -200,18 +203,16 @@ Range_image<Kernel> read_ptx(std::string_view text, const std::string& file)
       const auto p = read_coordinates(cursor);
       if (p == std::array<double, 3>{0, 0, 0}) continue;
       const Vector q = world_from_scanner(Vector(p[0], p[1], p[2]));
-      grid[row * columns + column] = static_cast<std::int32_t>(points.size());
-      points.emplace_back(q.x(), q.y(), q.z());
+      scan.grid[row * columns + column] = static_cast<std::int32_t>(scan.points.size());
+      scan.points.push_back(q);
     }
   }
   if (cursor.next_line())
     cursor.fail("more samples than columns times rows; a PTX file of several scans has to be split");
-  if (points.empty()) throw IO_error(file, "the range image has no samples");
+  if (scan.points.empty()) throw IO_error(file, "the range image has no samples");
 
-  Range_image<Kernel> image = checked_range_image<Kernel>(columns, rows, std::move(points), std::move(grid), file);
-  const Vector& t = world_from_scanner.translation;
-  image.set_sensor(Sensor<Kernel>::perspective(Point_3(t.x(), t.y(), t.z())));
-  return image;
+  scan.sensor = {Flat_sensor::PERSPECTIVE, world_from_scanner.translation};
+  return scan;
 }
 
 } // namespace internal

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -33,6 +34,11 @@ struct Flat_range_image
   std::vector<Vector> points;
   const std::int32_t* grid = nullptr; // row by row; -1 where there is no sample
   Flat_sensor sensor;
+
+  Flat_range_image(std::size_t number_of_columns, std::size_t number_of_rows, std::vector<Vector> samples,
+                   const std::int32_t* cells)
+      : columns(number_of_columns), rows(number_of_rows), points(std::move(samples)), grid(cells)
+  {}
 
   template <class Range_image>
   explicit Flat_range_image(const Range_image& image)

@@ -1,0 +1,61 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_READ_FLAT_SCAN_H
+#define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_READ_FLAT_SCAN_H
+
+// The door to the readers: what is in a file, as flat arrays.
+
+#include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
+#include <CGAL/Crude_registration/internal/base/compiled.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+struct Flat_scan_file
+{
+  enum Kind
+  {
+    RANGE_IMAGE,
+    MESH,
+    POINTS
+  };
+
+  Kind kind = POINTS;
+  std::vector<Vector> points;
+  std::vector<std::vector<std::size_t>> polygons; // of a mesh: a manifold with consistent faces, no vertex without one
+  std::size_t columns = 0, rows = 0;              // of a range image
+  std::vector<std::int32_t> grid;                 // row by row; -1 where there is no sample
+  Flat_sensor sensor;                             // as the file says, or as its grid tells
+};
+
+// As read_scan() describes it. \throws IO_error
+Flat_scan_file read_flat_scan(const std::string& filename);
+
+// A PLY file that holds a range image; `name`: of the file, in errors. \throws IO_error
+Flat_scan_file parse_flat_range_image(const std::string& data, const std::string& name);
+
+// The bytes of a file. \throws IO_error
+std::string read_file(const std::string& filename);
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#ifndef CGAL_CRUDE_REGISTRATION_COMPILED
+#include <CGAL/Crude_registration/IO/internal/read_flat_scan_impl.h>
+#endif
+
+#endif // CGAL_CRUDE_REGISTRATION_IO_INTERNAL_READ_FLAT_SCAN_H

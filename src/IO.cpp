@@ -1,0 +1,9 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The part IO of the compiled core.
+
+#include <CGAL/Crude_registration/IO/internal/read_flat_scan_impl.h>
