@@ -7,3 +7,13 @@
 // The part IO of the compiled core.
 
 #include <CGAL/Crude_registration/IO/internal/read_flat_scan_impl.h>
+#include <CGAL/Crude_registration/IO/read_scan.h>
+
+namespace CGAL {
+namespace Crude_registration {
+
+template Scan_file<Exact_predicates_inexact_constructions_kernel>
+read_scan<Exact_predicates_inexact_constructions_kernel>(const std::string&);
+
+} // namespace Crude_registration
+} // namespace CGAL

@@ -15,6 +15,7 @@
 #include <CGAL/Crude_registration/IO/internal/to_kernel.h>
 #include <CGAL/Crude_registration/Range_image.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <string>
@@ -98,6 +99,12 @@ Scan_file<Kernel> read_scan(const std::string& filename)
   }
   return scan;
 }
+
+#ifdef CGAL_CRUDE_REGISTRATION_COMPILED
+// The kernel that most programs use is compiled with the core.
+extern template Scan_file<Exact_predicates_inexact_constructions_kernel>
+read_scan<Exact_predicates_inexact_constructions_kernel>(const std::string&);
+#endif
 
 } // namespace Crude_registration
 } // namespace CGAL

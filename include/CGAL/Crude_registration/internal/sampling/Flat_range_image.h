@@ -10,6 +10,7 @@
 
 // A range image as flat arrays, and how densely it was sampled.
 
+#include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 
