@@ -8,3 +8,4 @@
 // The part base of the compiled core.
 
 #include <CGAL/Crude_registration/internal/base/for_each_index_impl.h>
+#include <CGAL/Crude_registration/internal/base/symmetric_eigen_impl.h>

@@ -10,9 +10,9 @@
 
 // Eigenvalues and eigenvectors of small symmetric matrices.
 
-#include <Eigen/Cholesky>
+#include <CGAL/Crude_registration/internal/base/compiled.h>
+
 #include <Eigen/Core>
-#include <Eigen/SVD>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -26,33 +26,33 @@ struct Symmetric_eigen
   Matrix_type vectors;
 };
 
+// Of matrices of any size: the decompositions of Eigen take long to compile, and one serves all.
+Symmetric_eigen<Eigen::MatrixXd> symmetric_eigen_of(const Eigen::MatrixXd& matrix);
+Symmetric_eigen<Eigen::MatrixXd> symmetric_eigen_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& n);
+
 // Of a symmetric matrix, of which the lower triangle is read, without negative eigenvalues: its singular values then.
-// (By Jacobi's rotations: exact for the small ones, too, and a sixth of the time to compile of
-// Eigen::SelfAdjointEigenSolver.)
 template <class Derived>
 auto symmetric_eigen(const Eigen::MatrixBase<Derived>& matrix)
 {
   constexpr int rows = Derived::RowsAtCompileTime, most = Derived::MaxRowsAtCompileTime;
-  using Plain = Eigen::Matrix<double, rows, rows, 0, most, most>;
-  const Plain full = Plain(matrix).template selfadjointView<Eigen::Lower>();
-  const Eigen::JacobiSVD<Plain, Eigen::NoQRPreconditioner> svd(full, Eigen::ComputeFullV);
-  return Symmetric_eigen<Plain>{svd.singularValues().reverse(), svd.matrixV().rowwise().reverse()};
+  const Symmetric_eigen<Eigen::MatrixXd> eigen = symmetric_eigen_of(matrix);
+  return Symmetric_eigen<Eigen::Matrix<double, rows, rows, 0, most, most>>{eigen.values, eigen.vectors};
 }
 
 // Of A v = mu N v with N positive definite; the vectors are such that v^T N v = 1.
 template <class Matrix_type>
 Symmetric_eigen<Matrix_type> symmetric_eigen(const Matrix_type& a, const Matrix_type& n)
 {
-  // N = L L^T, w = L^T v: L^-1 A L^-T w = mu w
-  const Eigen::LLT<Matrix_type> cholesky(n);
-  const Matrix_type half = cholesky.matrixL().solve(a), c = cholesky.matrixL().solve(half.transpose());
-  Symmetric_eigen<Matrix_type> eigen = symmetric_eigen(c);
-  eigen.vectors = cholesky.matrixU().solve(eigen.vectors).eval();
-  return eigen;
+  const Symmetric_eigen<Eigen::MatrixXd> eigen = symmetric_eigen_of(a, n);
+  return {eigen.values, eigen.vectors};
 }
 
 } // namespace internal
 } // namespace Crude_registration
 } // namespace CGAL
+
+#ifndef CGAL_CRUDE_REGISTRATION_COMPILED
+#include <CGAL/Crude_registration/internal/base/symmetric_eigen_impl.h>
+#endif
 
 #endif // CGAL_CRUDE_REGISTRATION_INTERNAL_BASE_SYMMETRIC_EIGEN_H

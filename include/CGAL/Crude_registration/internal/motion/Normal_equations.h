@@ -45,6 +45,34 @@ struct Normal_equations
       right[i] += wi * residual;
     }
   }
+
+  // The solution, with `damping` times the identity added to the left side: what the correspondences do not determine
+  // stays. By the Cholesky decomposition L D L^T of a matrix that is positive definite.
+  Eigen::Matrix<T, 6, 1> solved(T damping) const
+  {
+    T l[6][6], d[6], x[6];
+    for (int j = 0; j < 6; ++j) {
+      d[j] = left(j, j) + damping;
+      for (int k = 0; k < j; ++k) d[j] -= l[j][k] * l[j][k] * d[k];
+      const T inverse = 1 / d[j];
+      for (int i = j + 1; i < 6; ++i) {
+        T s = left(i, j);
+        for (int k = 0; k < j; ++k) s -= l[i][k] * l[j][k] * d[k];
+        l[i][j] = s * inverse;
+      }
+    }
+    for (int i = 0; i < 6; ++i) {
+      x[i] = right[i];
+      for (int k = 0; k < i; ++k) x[i] -= l[i][k] * x[k];
+    }
+    Eigen::Matrix<T, 6, 1> solution;
+    for (int i = 5; i >= 0; --i) {
+      x[i] /= d[i];
+      for (int k = i + 1; k < 6; ++k) x[i] -= l[k][i] * x[k];
+      solution[i] = x[i];
+    }
+    return solution;
+  }
 };
 
 } // namespace internal

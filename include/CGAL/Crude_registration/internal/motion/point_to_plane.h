@@ -236,12 +236,14 @@ private:
     Matrix_6 noise = Matrix_6::Zero();
     for (std::size_t i : m_used) {
       const Match& m = m_matches[i];
-      const Vector p = (m.source - m_source_mean) / m_radius;
-      Eigen::Matrix<double, 6, 3> row_of_normal;
-      row_of_normal << cross_matrix(p), Matrix::Identity();
-      const Matrix tangential = Matrix::Identity() - m.normal * m.normal.transpose();
-      noise += m.weight * variance * row_of_normal * tangential * row_of_normal.transpose();
+      const Matrix cross = cross_matrix((m.source - m_source_mean) / m_radius),
+                   tangential = m.weight * variance * (Matrix::Identity() - m.normal * m.normal.transpose()),
+                   turned = cross * tangential;
+      noise.topLeftCorner<3, 3>() -= turned * cross; // the transposed of a cross matrix is its negative
+      noise.bottomLeftCorner<3, 3>() += turned.transpose();
+      noise.bottomRightCorner<3, 3>() += tangential;
     }
+    noise.topRightCorner<3, 3>() = noise.bottomLeftCorner<3, 3>().transpose();
     return noise;
   }
 

@@ -13,7 +13,6 @@
 #include <CGAL/Crude_registration/internal/motion/Normal_equations.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <array>
@@ -68,9 +67,8 @@ int refine_step(const Surfel_range& source, const Surfel_level& target, const St
     equations.add(((Vector_f(r[0], r[1], r[2]) - middle) * inverse_unit).cross(n), n, -r[6],
                   biweight(r[6] * r[6] * inverse_reach2));
   }
-  // What the correspondences do not determine stays: a little of the identity.
-  equations.left.diagonal().array() += 1e-3f * float(rows.size()) / 6;
-  const Eigen::Matrix<float, 6, 1> x = equations.left.selfadjointView<Eigen::Lower>().ldlt().solve(equations.right);
+  // A little of the identity: a thousandth of what the correspondences make it in the mean.
+  const Eigen::Matrix<float, 6, 1> x = equations.solved(1e-3f * float(rows.size()) / 6);
   const Vector_f w = x.head<3>() * inverse_unit, t = x.tail<3>();
   const float angle = w.norm();
   const Matrix_f r = angle > 1e-7f ? Eigen::AngleAxisf(angle, w / angle).toRotationMatrix() : Matrix_f::Identity();
