@@ -12,6 +12,7 @@
 
 #include <CGAL/Crude_registration/Sensor.h>
 
+#include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>
 
 #include <cmath>
@@ -58,7 +59,7 @@ public:
   /// \throws std::invalid_argument if the number of cells is above 2^31 - 1.
   Range_image(std::size_t columns, std::size_t rows) : m_columns(columns), m_rows(rows)
   {
-    if (columns != 0 && rows > static_cast<std::size_t>(std::numeric_limits<Index>::max()) / columns)
+    if (columns != 0 && rows > static_cast<std::size_t>((std::numeric_limits<Index>::max)()) / columns)
       throw std::invalid_argument("Range_image: columns times rows is above 2^31 - 1");
     m_grid.assign(columns * rows, no_sample);
   }
@@ -69,14 +70,13 @@ public:
   /// \param points the samples, in any order
   /// \param grid the index of every cell's sample in `points`, or `no_sample`, row by row
   /// \throws std::invalid_argument if the size of `grid` is not `columns * rows`, an index is outside `points` or in
-  /// two
-  ///         cells, or a coordinate is NaN or infinite.
+  ///         two cells, or a coordinate is NaN or infinite.
   Range_image(std::size_t columns, std::size_t rows, std::vector<Point_3> points, std::vector<Index> grid)
       : m_columns(columns), m_rows(rows), m_points(std::move(points)), m_grid(std::move(grid))
   {
     if (columns == 0 || rows == 0 ? !m_grid.empty() : m_grid.size() / columns != rows || m_grid.size() % columns != 0)
       throw std::invalid_argument("Range_image: the size of grid is not columns times rows");
-    if (m_grid.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+    if (m_grid.size() > static_cast<std::size_t>((std::numeric_limits<Index>::max)()))
       throw std::invalid_argument("Range_image: columns times rows is above 2^31 - 1");
     for (const Point_3& p : m_points) check(p);
     std::vector<bool> used(m_points.size(), false);
@@ -102,8 +102,13 @@ public:
   /// the indices of all cells, row by row.
   const std::vector<Index>& grid() const { return m_grid; }
 
-  /// the index of the sample of a cell, or `no_sample`. \pre `column < columns()` and `row < rows()`
-  Index index(std::size_t column, std::size_t row) const { return m_grid[row * m_columns + column]; }
+  /// the index of the sample of a cell, or `no_sample`.
+  /// \pre `column < columns()` and `row < rows()`
+  Index index(std::size_t column, std::size_t row) const
+  {
+    CGAL_precondition(column < m_columns && row < m_rows);
+    return m_grid[row * m_columns + column];
+  }
 
   /// the sensor, in the frame of the points; unknown unless it was set.
   const Sensor<Kernel>& sensor() const { return m_sensor; }

@@ -28,6 +28,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -64,11 +65,57 @@ motions are between frames of inputs.
 
 \tparam Kernel_ a model of `Kernel`
 
-All constructors take the named parameters `time_budget`, seconds after which the preparation ends, and `visitor`, which
-may end it (see `register_scans()`), by `Preparation_interrupted`: within a tenth of a second for scans of up to five
-million samples; within two tenths where points are joined whose sensor is not known, as the front ends in one step.
-What is thrown by the visitor is passed on. A `time_budget` that is not a finite number above zero is refused by
-`std::invalid_argument`.
+All constructors read these named parameters:
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{viewpoint}
+    \cgalParamDescription{where the sensor stood, in the frame of the input}
+    \cgalParamType{a `Point_3`}
+    \cgalParamDefault{of a range image its own sensor, or what `estimate_sensor()` finds; else not known: free space is
+                      then taken along the mean normal where nearly the whole surface faces that way, and nowhere
+                      otherwise}
+    \cgalParamExtra{excludes `viewing_direction`}
+  \cgalParamNEnd
+  \cgalParamNBegin{viewing_direction}
+    \cgalParamDescription{the direction of parallel lines of sight, from the sensor into the scene, in the frame of the
+                          input, of any length}
+    \cgalParamType{a `Vector_3`, not null}
+    \cgalParamDefault{as of `viewpoint`}
+    \cgalParamExtra{excludes `viewpoint`}
+  \cgalParamNEnd
+  \cgalParamNBegin{candidates}
+    \cgalParamDescription{the generator that the scan will be registered with, for what it needs of the scan:
+                          `Trihedron_candidates` needs the simplified mesh}
+    \cgalParamType{a model of `CandidateGenerator`}
+    \cgalParamDefault{none: the scan can be registered with `Oriented_pair_candidates` and with generators of your own}
+  \cgalParamNEnd
+  \cgalParamNBegin{approximation_error}
+    \cgalParamDescription{how far `Trihedron_candidates` simplifies the scan, a squared length, see `simplify_scan()`}
+    \cgalParamType{`double`, zero or above}
+    \cgalParamDefault{`approximation_error()` of the scan if `number_of_vertices` is not given either, else no limit}
+  \cgalParamNEnd
+  \cgalParamNBegin{number_of_vertices}
+    \cgalParamDescription{the number of vertices at which `Trihedron_candidates` stops to simplify}
+    \cgalParamType{an integer}
+    \cgalParamDefault{`0`}
+  \cgalParamNEnd
+  \cgalParamNBegin{time_budget}
+    \cgalParamDescription{seconds after which the preparation ends}
+    \cgalParamType{`double`, above zero}
+    \cgalParamDefault{none}
+  \cgalParamNEnd
+  \cgalParamNBegin{visitor}
+    \cgalParamDescription{may end the preparation}
+    \cgalParamType{a model of `RegistrationVisitor`, or a `std::reference_wrapper` of one}
+    \cgalParamDefault{none}
+    \cgalParamExtra{It is called by the calling thread, about once a millisecond.}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+
+A parameter that is out of its range is refused by `std::invalid_argument`, as is a scan whose size is not between 1e-12
+and 1e12. Where the budget or the visitor ends the preparation, `Preparation_interrupted` is thrown: within a tenth of a
+second for scans of up to five million samples; within two tenths where points are joined whose sensor is not known, as
+the front ends in one step. What is thrown by the visitor is passed on.
 
 Complexity: linear in the size of the input; the size of the result is bounded (some megabytes).
 */
@@ -78,18 +125,30 @@ class Scan
 public:
   typedef Kernel_ Kernel;
   typedef typename Kernel::Point_3 Point_3;
+  typedef typename Kernel::Vector_3 Vector_3;
 
   /*!
   prepares a triangle mesh.
 
   \tparam FaceGraph a model of `FaceListGraph`
+  \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
   \param mesh the surface, faces counterclockwise seen from outside (from the sensor)
-  \param np optional named parameters: `vertex_point_map`; `viewpoint` (a point) or `viewing_direction` (a vector), the
-         sensor in the frame of the mesh. Without them the free space is taken along the mean normal where nearly the
-         whole surface faces that way, and nowhere otherwise.
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class and the one
+         listed below
   \param name what the mesh is called in the text of exceptions
-  \throws std::invalid_argument if the mesh has no face of positive area, a face that is not a triangle, a coordinate
-         that is not finite, or both `viewpoint` and `viewing_direction` are given.
+
+  \cgalNamedParamsBegin
+    \cgalParamNBegin{vertex_point_map}
+      \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+      \cgalParamType{a class model of `ReadablePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor`
+                     as key type and a `Point_3` as value type}
+      \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
+    \cgalParamNEnd
+  \cgalNamedParamsEnd
+
+  \throws std::invalid_argument if the mesh has no face of positive area, a face that is not a triangle, or a coordinate
+         that is not finite
   */
   template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Scan(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values(),
@@ -103,7 +162,13 @@ public:
   parameters `viewpoint` or `viewing_direction`, or the one that the grid tells (see `estimate_sensor()`), in this
   order.
 
-  \throws std::invalid_argument if no face is left.
+  \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+  \param image the range image
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class
+  \param name what the image is called in the text of exceptions
+
+  \throws std::invalid_argument if no face is left
   */
   template <class NamedParameters = parameters::Default_named_parameters>
   explicit Scan(const Range_image<Kernel>& image, const NamedParameters& np = parameters::default_values(),
@@ -115,10 +180,13 @@ public:
   /*!
   prepares points without faces (see `triangulate_points()`).
 
+  \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
   \param points the samples
-  \param np optional named parameters: `viewpoint` or `viewing_direction`, the sensor in the frame of the points
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class
   \param name what the points are called in the text of exceptions
-  \throws std::invalid_argument if a coordinate is not finite or no face is left.
+
+  \throws std::invalid_argument if a coordinate is not finite or no face is left
   */
   template <class NamedParameters = parameters::Default_named_parameters>
   explicit Scan(const std::vector<Point_3>& points, const NamedParameters& np = parameters::default_values(),
@@ -129,6 +197,14 @@ public:
 
   /*!
   prepares what `read_scan()` found in a file: a range image, a mesh or points, as above.
+
+  \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+  \param file the contents of the file
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class
+  \param name what the file is called in the text of exceptions
+
+  \throws std::invalid_argument if the file holds nothing that has a surface
   */
   template <class NamedParameters = parameters::Default_named_parameters>
   explicit Scan(const Scan_file<Kernel>& file, const NamedParameters& np = parameters::default_values(),
@@ -157,6 +233,30 @@ public:
 
   /// the mean edge length \f$ M \f$ of the scan's box in a frame of the scan's own.
   double extent() const { return m_reduced.extent; }
+
+  /// some thousand points that stand for the surface, in the frame of the input: what candidates are found with.
+  std::vector<Point_3> points() const
+  {
+    std::vector<Point_3> points;
+    const internal::Rigid_motion input_from_own = m_reduced.own_from_input.inverse();
+    for (const internal::Surfel& s : m_reduced.coarse.surfels) {
+      const internal::Vector p = input_from_own(s.position.template cast<double>());
+      points.emplace_back(p.x(), p.y(), p.z());
+    }
+    return points;
+  }
+
+  /// the unit normals at points(), outwards or towards the sensor.
+  std::vector<Vector_3> normals() const
+  {
+    std::vector<Vector_3> normals;
+    const internal::Matrix input_from_own = m_reduced.own_from_input.rotation.transpose();
+    for (const internal::Surfel& s : m_reduced.coarse.surfels) {
+      const internal::Vector n = input_from_own * s.normal.template cast<double>().normalized();
+      normals.emplace_back(n.x(), n.y(), n.z());
+    }
+    return normals;
+  }
 
   /// whether free space is known, from the sensor or along the mean normal.
   bool has_free_space() const { return m_reduced.depths.is_known(); }

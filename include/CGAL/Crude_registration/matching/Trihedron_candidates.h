@@ -70,14 +70,15 @@ public:
       \cgalParamDefault{0.7 times the median edge length of the \f$ D \f$-mesh; 0.8 in the last pass}
     \cgalParamNEnd
     \cgalParamNBegin{use_normals}
-      \cgalParamDescription{whether normals take part in the comparison, beside curvatures. The paper compares
-  curvatures alone, which leaves many more candidates to the noise of a scan} \cgalParamType{`bool`}
+      \cgalParamDescription{whether normals take part in the comparison, beside curvatures}
+      \cgalParamType{`bool`}
       \cgalParamDefault{`true`}
+      \cgalParamExtra{The paper compares curvatures alone, which leaves many more candidates to the noise of a scan.}
     \cgalParamNEnd
   \cgalNamedParamsEnd
 
-  The simplification of each scan is that scan's: its parameters `approximation_error`, `number_of_vertices` and
-  `cell_size`, as `simplify_scan()` reads them, are given to `Scan`, or to `register_meshes()` for either mesh.
+  The simplification of each scan is that scan's: its parameters `approximation_error` and `number_of_vertices`, as
+  `simplify_scan()` reads them, are given to `Scan`, or to `register_meshes()` for either mesh.
 
   \throws std::invalid_argument if not \f$ 0 \le f_1 < f_2 \f$, or a number is not finite or out of its range
   */

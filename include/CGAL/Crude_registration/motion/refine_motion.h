@@ -113,24 +113,24 @@ below
   \cgalParamNBegin{maximum_distance}
     \cgalParamDescription{how far apart corresponding points may lie under `initial_motion`, in the unit of the
                           coordinates; not below two sampling distances; read from `np_source`}
-    \cgalParamType{double}
+    \cgalParamType{`double`, above zero}
     \cgalParamDefault{a fifth of the RMS radius of the target}
   \cgalParamNEnd
   \cgalParamNBegin{sampling_distance}
     \cgalParamDescription{the sampling distance of the coarser mesh, in the unit of the coordinates; read from
                           `np_source`}
-    \cgalParamType{double}
+    \cgalParamType{`double`, above zero}
     \cgalParamDefault{the larger one of the median edge lengths}
   \cgalParamNEnd
   \cgalParamNBegin{tolerance}
     \cgalParamDescription{the step, in sampling distances, that ends the iteration; read from `np_source`}
-    \cgalParamType{double}
-    \cgalParamDefault{0.05, a fraction of what range scanners resolve}
+    \cgalParamType{`double`, above zero}
+    \cgalParamDefault{`0.05`, a fraction of what range scanners resolve}
   \cgalParamNEnd
   \cgalParamNBegin{number_of_iterations}
     \cgalParamDescription{the largest number of iterations; read from `np_source`}
-    \cgalParamType{unsigned int}
-    \cgalParamDefault{50}
+    \cgalParamType{an integer, 1 or above}
+    \cgalParamDefault{`50`}
   \cgalParamNEnd
 \cgalNamedParamsEnd
 

@@ -67,20 +67,21 @@ double approximation_error(const Flat_mesh& mesh, const NamedParameters& np, con
  *   \cgalParamNEnd
  *   \cgalParamNBegin{viewing_direction}
  *     \cgalParamDescription{as for `scan_extent()`}
- *     \cgalParamType{`Vector_3`}
- *     \cgalParamDefault{none}
+ *     \cgalParamType{a `Vector_3`, not null}
+ *     \cgalParamDefault{not known}
+ *     \cgalParamExtra{excludes `viewpoint`}
  *   \cgalParamNEnd
  *   \cgalParamNBegin{viewpoint}
  *     \cgalParamDescription{as for `scan_extent()`}
- *     \cgalParamType{`Point_3`}
- *     \cgalParamDefault{none}
+ *     \cgalParamType{a `Point_3`}
+ *     \cgalParamDefault{not known}
+ *     \cgalParamExtra{excludes `viewing_direction`}
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
  * \throws std::invalid_argument if a face of `mesh` is not a triangle, a coordinate is not finite, or the sampling
  * distance is not a finite number above zero.
  */
-
 template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
 double approximation_error(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values())
 {
@@ -94,7 +95,6 @@ double approximation_error(const FaceGraph& mesh, const NamedParameters& np = pa
  * \brief the paper's approximation error of a range image, with its sampling distance, its extent along the axes of its
  * grid, and the surface types of its triangulation. This is the paper's own case.
  */
-
 template <class Kernel>
 double approximation_error(const Range_image<Kernel>& image)
 {

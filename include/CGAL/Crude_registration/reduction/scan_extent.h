@@ -63,19 +63,19 @@ struct Scan_extent
  *   \cgalParamNEnd
  *   \cgalParamNBegin{viewing_direction}
  *     \cgalParamDescription{the direction of the lines of sight, from the sensor into the scene}
- *     \cgalParamType{`Vector_3`, not null}
+ *     \cgalParamType{a `Vector_3`, not null}
  *     \cgalParamDefault{none: the frame is found from the mesh}
  *   \cgalParamNEnd
  *   \cgalParamNBegin{viewpoint}
  *     \cgalParamDescription{the place of the sensor; the depth axis goes through it and the centroid of the surface}
- *     \cgalParamType{`Point_3`}
- *     \cgalParamDefault{none}
+ *     \cgalParamType{a `Point_3`}
+ *     \cgalParamDefault{not known}
+ *     \cgalParamExtra{excludes `viewing_direction`}
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
  * \throws std::invalid_argument if a face of `mesh` is not a triangle or a coordinate is not finite.
  */
-
 template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
 Scan_extent scan_extent(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values())
 {
@@ -93,7 +93,6 @@ Scan_extent scan_extent(const FaceGraph& mesh, const NamedParameters& np = param
  * horizontal axis that of the columns, wherever the image has been moved. Samples that are in no triangle of
  * `triangulate_range_image()` do not count.
  */
-
 template <class Kernel>
 Scan_extent scan_extent(const Range_image<Kernel>& image)
 {

@@ -63,6 +63,8 @@ namespace Crude_registration {
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
+ * \return how many vertices are of which type
+ *
  * \throws std::invalid_argument as `principal_curvatures()`, and if the tolerance is negative or not finite.
  */
 template <class FaceGraph, class VertexTypeMap, class NamedParameters = parameters::Default_named_parameters>

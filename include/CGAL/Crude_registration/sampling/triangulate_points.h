@@ -65,16 +65,19 @@ edge, a vertex is repeated, at the end: the result is a manifold. Points in no t
   \cgalParamNBegin{viewpoint}
     \cgalParamDescription{where the sensor stood, in the frame of `points`}
     \cgalParamType{a `Point_3`}
+    \cgalParamDefault{not known}
     \cgalParamExtra{excludes `viewing_direction`}
   \cgalParamNEnd
   \cgalParamNBegin{viewing_direction}
     \cgalParamDescription{the direction of parallel lines of sight, from the sensor into the scene, in the frame of
                           `points`, of any length}
-    \cgalParamType{a `Vector_3`}
+    \cgalParamType{a `Vector_3`, not null}
+    \cgalParamDefault{not known}
+    \cgalParamExtra{excludes `viewpoint`}
   \cgalParamNEnd
   \cgalParamNBegin{maximum_edge_ratio}
     \cgalParamDescription{the length of the longest edge, in sampling distances}
-    \cgalParamType{double}
+    \cgalParamType{`double`, above zero}
     \cgalParamDefault{`5`}
   \cgalParamNEnd
   \cgalParamNBegin{point_map}

@@ -48,7 +48,7 @@ the result is a manifold.
 \cgalNamedParamsBegin
   \cgalParamNBegin{maximum_edge_ratio}
     \cgalParamDescription{the length of the longest edge, in sampling distances}
-    \cgalParamType{double}
+    \cgalParamType{`double`, above zero}
     \cgalParamDefault{`5`}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_point_map}

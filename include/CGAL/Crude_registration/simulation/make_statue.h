@@ -41,7 +41,7 @@ the same, bit by bit, for the same `resolution` and seed.
 \cgalNamedParamsBegin
   \cgalParamNBegin{random_seed}
     \cgalParamDescription{says which of the bodies to make}
-    \cgalParamType{unsigned int}
+    \cgalParamType{`unsigned int`}
     \cgalParamDefault{`0`}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_point_map}

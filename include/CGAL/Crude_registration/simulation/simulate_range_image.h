@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
 
 #include <cmath>
 #include <cstddef>
@@ -91,6 +92,8 @@ struct Range_camera
     const internal::Vector low((box.min)(0), (box.min)(1), (box.min)(2)),
         high((box.max)(0), (box.max)(1), (box.max)(2));
     const double radius = (high - low).norm() / 2;
+    CGAL_precondition(!direction.isZero(0));
+    CGAL_precondition(radius > 0);
     const internal::Vector center = low + (high - low) / 2, from = center - 3 * radius * direction;
     Range_camera camera;
     camera.viewpoint = typename Kernel::Point_3(from.x(), from.y(), from.z());
@@ -172,12 +175,27 @@ Memory is linear in the number of faces, construction \f$O(n \log n)\f$.
 class Simulated_scene
 {
 public:
-  /// prepares a triangle mesh; both sides of its faces are seen.
-  /// \tparam FaceGraph a model of `FaceListGraph`
-  /// \param mesh the scene
-  /// \param np `vertex_point_map` is read
-  /// \throws std::invalid_argument if `mesh` has no face of positive area, a face that is not a triangle, or a
-  /// coordinate that is not finite.
+  /*!
+  prepares a triangle mesh; both sides of its faces are seen.
+
+  \tparam FaceGraph a model of `FaceListGraph`
+  \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+  \param mesh the scene
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+
+  \cgalNamedParamsBegin
+    \cgalParamNBegin{vertex_point_map}
+      \cgalParamDescription{a property map associating points to the vertices of `mesh`}
+      \cgalParamType{a class model of `ReadablePropertyMap` with `boost::graph_traits<FaceGraph>::%vertex_descriptor`
+                     as key type and a `Point_3` as value type}
+      \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
+    \cgalParamNEnd
+  \cgalNamedParamsEnd
+
+  \throws std::invalid_argument if `mesh` has no face of positive area, a face that is not a triangle, or a coordinate
+  that is not finite.
+  */
   template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Simulated_scene(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values())
       : m_rays(internal::to_flat_mesh(mesh, internal::cgal_parameters(np), "simulate_range_image", "mesh"))

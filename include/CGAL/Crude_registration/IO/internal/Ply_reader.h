@@ -222,7 +222,7 @@ private:
                          "the range_grid has " + std::to_string(e.count) + " cells, but num_cols times num_rows is " +
                              std::to_string(columns) + " times " + std::to_string(rows));
       }
-      if (e.count > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
+      if (e.count > static_cast<std::uint64_t>((std::numeric_limits<std::int32_t>::max)()))
         throw IO_error(m_file, e.line, "more than 2^31 - 1 elements");
     }
     if (!has_vertices) cursor.fail("the header has no 'element vertex'");

@@ -131,7 +131,7 @@ private:
   std::array<double, 3> read_columns()
   {
     std::array<double, 3> p = {0, 0, 0};
-    const int last = std::max({m_columns[0], m_columns[1], m_columns[2]});
+    const int last = (std::max)({m_columns[0], m_columns[1], m_columns[2]});
     for (int column = 0; column <= last; ++column) {
       const auto it = std::find(m_columns.begin(), m_columns.end(), column);
       if (it == m_columns.end()) m_cursor.word();

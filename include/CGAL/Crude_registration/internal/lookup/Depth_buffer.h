@@ -121,7 +121,7 @@ private:
     if (m_kind == Flat_sensor::PERSPECTIVE) {
       const float r = q.norm();
       if (!(r + q[2] > 1e-3f * r)) // at the viewpoint or opposite
-        return Vector_f::Constant(std::numeric_limits<float>::quiet_NaN());
+        return Vector_f::Constant((std::numeric_limits<float>::quiet_NaN)());
       const float f = std::sqrt(2 / (r * (r + q[2])));
       q = Vector_f(q[0] * f, q[1] * f, r);
     }

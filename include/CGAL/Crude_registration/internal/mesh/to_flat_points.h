@@ -39,7 +39,7 @@ std::vector<Vector> to_flat_points(const PointRange& points, const PointMap& poi
     if (!result.back().allFinite())
       throw std::invalid_argument(function + ": point " + std::to_string(result.size() - 1) + " of " + argument +
                                   " has a coordinate that is not finite");
-    if (result.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    if (result.size() > static_cast<std::size_t>((std::numeric_limits<std::int32_t>::max)()))
       throw std::invalid_argument(function + ": " + argument + " has more than 2^31 - 1 points");
   }
   check_size(result, function, argument);

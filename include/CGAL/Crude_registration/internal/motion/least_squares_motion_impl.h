@@ -64,7 +64,7 @@ least_squares_motion(const Vector* source, const Vector* target, const double* w
   // The rotation turns by (change of the covariance) / (sigma_2 + sign sigma_3). It is not determined where the
   // rounding of the coordinates alone may turn it by more than 1e-5: coincident or collinear points, and point sets
   // that are mirror images of each other with two equal extents.
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  constexpr double epsilon = (std::numeric_limits<double>::epsilon)();
   const double rounding = 4 * epsilon * (1 + source_largest / source_unit + target_largest / target_unit);
   if (!(1e-5 * (sigma[1] + sign * sigma[2]) > rounding)) return std::nullopt;
 

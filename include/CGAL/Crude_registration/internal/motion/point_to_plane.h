@@ -257,7 +257,7 @@ private:
     if (close > 0) result.overlap = double(close) / double(m_points.size());
     if (m_used.size() < fewest_matches) {
       result.is_converged = false;
-      result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+      result.covariance.diagonal().setConstant((std::numeric_limits<double>::infinity)());
       for (int k = 0; k < 6; ++k) result.free_motions.push_back(Vector_6::Unit(k));
       return;
     }

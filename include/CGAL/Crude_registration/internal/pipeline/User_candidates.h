@@ -13,7 +13,7 @@
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 
-#include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -33,9 +33,10 @@ public:
 
   bool next(Run_control& control, Proposals& proposals) override
   {
+    if (m_rounds.is_done()) return false;
     const Stage_timer timer(m_stage);
     const auto motions = m_rounds([&control] { return control.go_on(); });
-    if (m_rounds.is_done()) return false;
+    if (motions.empty() && m_rounds.is_done()) return false;
     ++m_stage.count;
     const Rigid_motion input_from_own = m_source.own_from_input.inverse();
     for (const auto& m : motions)

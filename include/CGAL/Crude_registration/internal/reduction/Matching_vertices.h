@@ -56,7 +56,7 @@ inline Matching_vertices matching_vertices(const Flat_mesh& simplified, const Fl
     const Vector& centre = simplified.points[i];
     found.clear();
     std::int32_t nearest = -1;
-    double least = std::numeric_limits<double>::infinity();
+    double least = (std::numeric_limits<double>::infinity)();
     grid.for_each_within(centre, radius, [&](std::int32_t j, double d) {
       if (dense_normals[std::size_t(j)].isZero(0)) return;
       found.push_back(j);

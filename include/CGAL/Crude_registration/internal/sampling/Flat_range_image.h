@@ -111,7 +111,7 @@ inline Sampling sampling(const Flat_range_image& image, Run_control& control = t
     control.check();
   }
   Sampling s;
-  s.distance = std::max(medians[0], medians[1]);
+  s.distance = (std::max)(medians[0], medians[1]);
   if (is_perspective) {
     std::vector<double>& ranges = distances;
     ranges.clear();

@@ -110,7 +110,7 @@ private:
 
   double squared_limit(std::size_t p, std::size_t q) const
   {
-    return std::min(m_squared_limits[sample(p)], m_squared_limits[sample(q)]);
+    return (std::min)(m_squared_limits[sample(p)], m_squared_limits[sample(q)]);
   }
 
   bool is_short(std::size_t p, std::size_t q) const { return squared_length(p, q) <= squared_limit(p, q); }
@@ -193,7 +193,7 @@ private:
         const std::size_t i = sample(cell);
         m_vertices[i] = static_cast<std::int32_t>(mesh.points.size());
         const unsigned starts = fan_starts(covered);
-        const unsigned fans = std::max(1u, count_bits(starts)); // a fan all around has no start
+        const unsigned fans = (std::max)(1u, count_bits(starts)); // a fan all around has no start
         if (fans > 1) m_fan_starts[i] = static_cast<std::uint8_t>(starts);
         mesh.points.insert(mesh.points.end(), fans, m_image.points[i]);
       }

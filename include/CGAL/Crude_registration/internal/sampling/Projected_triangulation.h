@@ -173,7 +173,7 @@ private:
 
   bool is_short(std::size_t i, std::size_t j) const
   {
-    return (m_points[i] - m_points[j]).squaredNorm() <= std::min(squared_limit(i), squared_limit(j));
+    return (m_points[i] - m_points[j]).squaredNorm() <= (std::min)(squared_limit(i), squared_limit(j));
   }
 
   void make_mesh(Flat_mesh& mesh) const

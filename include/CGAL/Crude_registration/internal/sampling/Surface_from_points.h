@@ -93,7 +93,7 @@ private:
       m_control.check(m_local.size());
       m_local.push_back(m_axes.transpose() * (p - m_centroid));
       third += m_local.back().cwiseProduct(m_local.back()).cwiseProduct(m_local.back());
-      m_extent = std::max(m_extent, 2 * m_local.back().cwiseAbs().maxCoeff());
+      m_extent = (std::max)(m_extent, 2 * m_local.back().cwiseAbs().maxCoeff());
     }
     // an axis points to the side where the points reach farther
     for (int i = 0; i < 3; ++i)
@@ -126,12 +126,12 @@ private:
   {
     const double wanted = static_cast<double>(count);
     const double smallest = m_extent / double(1 << 20); // 21 bits an axis
-    double size = std::max(smallest, m_extent / std::sqrt(wanted));
+    double size = (std::max)(smallest, m_extent / std::sqrt(wanted));
     for (int i = 0; i < 8; ++i) {
       std::vector<Cell_item> items = cells(size);
       const double got = static_cast<double>(std::unique(items.begin(), items.end(), is_same_cell) - items.begin());
       if (std::abs(got - wanted) < 0.05 * wanted) break;
-      size = std::max(smallest, size * std::sqrt(got / wanted));
+      size = (std::max)(smallest, size * std::sqrt(got / wanted));
     }
     return size;
   }
@@ -201,7 +201,7 @@ private:
     for (const auto& f : mesh.faces)
       for (std::size_t k = 1; k < 3; ++k) {
         const std::size_t a = root(f[0]), b = root(f[k]);
-        parent[std::max(a, b)] = std::min(a, b);
+        parent[(std::max)(a, b)] = (std::min)(a, b);
       }
     std::vector<double> outwards(mesh.points.size(), 0);
     for (const auto& f : mesh.faces) {

@@ -292,7 +292,7 @@ private:
     if (convergence != 0) return convergence > 0;
     std::size_t receding = 0, approaching = 0;
     count_silhouettes(direction, receding, approaching);
-    if (receding + approaching >= 20 && 5 * std::max(receding, approaching) >= 3 * (receding + approaching))
+    if (receding + approaching >= 20 && 5 * (std::max)(receding, approaching) >= 3 * (receding + approaching))
       return receding > approaching;
     return true;
   }
