@@ -18,7 +18,8 @@ set(rooms
   "Scan.h"
   "IO/.*"
   "register_scans.h"
-  "register_meshes.h")
+  "register_meshes.h"
+  "all_headers.h")
 
 function(level_of header result)
   set(level -1)

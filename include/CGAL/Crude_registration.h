@@ -8,37 +8,9 @@
 #ifndef CGAL_CRUDE_REGISTRATION_H
 #define CGAL_CRUDE_REGISTRATION_H
 
-// The whole package.
+// The whole package, under both of its names. Where a file system ignores case, CGAL/Crude_registration.h and
+// CGAL/crude_registration.h are one file: the two have the same bytes.
 
-#include <CGAL/Crude_registration/IO/IO_error.h>
-#include <CGAL/Crude_registration/IO/read_range_image.h>
-#include <CGAL/Crude_registration/IO/read_scan.h>
-#include <CGAL/Crude_registration/IO/write_range_image.h>
-#include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/Registration_result.h>
-#include <CGAL/Crude_registration/Registration_status.h>
-#include <CGAL/Crude_registration/Scan.h>
-#include <CGAL/Crude_registration/Sensor.h>
-#include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
-#include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
-#include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
-#include <CGAL/Crude_registration/matching/match_trihedra.h>
-#include <CGAL/Crude_registration/motion/refine_motion.h>
-#include <CGAL/Crude_registration/motion/rigid_motion.h>
-#include <CGAL/Crude_registration/named_parameters.h>
-#include <CGAL/Crude_registration/reduction/Surface_type.h>
-#include <CGAL/Crude_registration/reduction/approximation_error.h>
-#include <CGAL/Crude_registration/reduction/principal_curvatures.h>
-#include <CGAL/Crude_registration/reduction/scan_extent.h>
-#include <CGAL/Crude_registration/reduction/simplify_scan.h>
-#include <CGAL/Crude_registration/reduction/surface_types.h>
-#include <CGAL/Crude_registration/register_meshes.h>
-#include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
-#include <CGAL/Crude_registration/sampling/sampling_distance.h>
-#include <CGAL/Crude_registration/sampling/triangulate_points.h>
-#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
-#include <CGAL/Crude_registration/simulation/make_statue.h>
-#include <CGAL/Crude_registration/simulation/simulate_range_image.h>
+#include <CGAL/Crude_registration/all_headers.h>
 
 #endif // CGAL_CRUDE_REGISTRATION_H
