@@ -1,5 +1,6 @@
 # Fails unless the umbrella header includes every public header, and has the same bytes under both of its names: where a
 # file system ignores case they are one file.
+cmake_minimum_required(VERSION 3.22)
 set(all CGAL/Crude_registration/all_headers.h)
 file(GLOB_RECURSE headers RELATIVE ${include_dir} ${include_dir}/CGAL/Crude_registration/*.h)
 list(FILTER headers EXCLUDE REGEX "/internal/|/all_headers\\.h$")
