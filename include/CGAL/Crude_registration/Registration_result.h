@@ -110,7 +110,9 @@ public:
     return internal::to_aff_transformation<Kernel>(internal::to_rigid_motion(m_parts.transformation).inverse());
   }
 
-  /// transformation() as it was proposed, before any refinement: what the correspondences of the reduced scans gave.
+  /// transformation() as the candidate generator proposed it, before the judge and the refinement moved it: by
+  /// `Oriented_pair_candidates` the motion of one pair of oriented points, by `Trihedron_candidates` that of a trihedron,
+  /// estimated again from all vertices of the simplified meshes that agree under it.
   const Transformation& crude_transformation() const { return m_parts.crude_transformation; }
 
   /// The probability, in [0,1], that transformation() is right; at most 1/n where n distinct motions are equally good,
