@@ -111,8 +111,8 @@ public:
   }
 
   /// transformation() as the candidate generator proposed it, before the judge and the refinement moved it: by
-  /// `Oriented_pair_candidates` the motion of one pair of oriented points, by `Trihedron_candidates` that of a trihedron,
-  /// estimated again from all vertices of the simplified meshes that agree under it.
+  /// `Oriented_pair_candidates` the motion of one pair of oriented points, by `Trihedron_candidates` that of a
+  /// trihedron, estimated again from all vertices of the simplified meshes that agree under it.
   const Transformation& crude_transformation() const { return m_parts.crude_transformation; }
 
   /// The probability, in [0,1], that transformation() is right; at most 1/n where n distinct motions are equally good,
