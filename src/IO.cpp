@@ -3,8 +3,11 @@
 //
 // This file is part of the CGAL package Crude_registration.
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part IO of the compiled core.
+//
+// Author(s)     : The Crude_registration authors
 
 #include <CGAL/Crude_registration/IO/internal/read_flat_scan_impl.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>

@@ -3,7 +3,11 @@
 //
 // This file is part of the CGAL package Crude_registration.
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Author(s)     : The Crude_registration authors
 
 #ifndef CGAL_CRUDE_REGISTRATION_IO_IO_ERROR_H
 #define CGAL_CRUDE_REGISTRATION_IO_IO_ERROR_H
