@@ -12,12 +12,11 @@
 // in memory: both preparations and the search; `prepare_seconds` and `pair_seconds` are its parts.
 
 #include "moved_scan.h"
+#include "result_tools.h"
+#include "write_file.h"
 
-#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 #include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
 #include <CGAL/Crude_registration/register_scans.h>
-
-#include <Eigen/Geometry>
 
 #include <boost/program_options.hpp>
 
@@ -38,6 +37,7 @@ namespace CR = CGAL::Crude_registration;
 namespace po = boost::program_options;
 using benchmark_tools::Kernel;
 using benchmark_tools::Pair;
+using benchmark_tools::Transformation;
 
 namespace {
 
@@ -51,7 +51,7 @@ struct Method
 struct Moved_scan
 {
   std::optional<CR::Scan<Kernel>> scan;
-  CR::internal::Rigid_motion moved_from_file;
+  Transformation moved_from_file = Transformation(CGAL::IDENTITY);
   double seconds = 0;
 };
 
@@ -117,17 +117,9 @@ void for_each_index(std::size_t n, unsigned threads, Function f)
     if (e) std::rethrow_exception(e);
 }
 
-std::size_t number_of_iterations(const CR::Registration_result<Kernel>& result)
-{
-  for (const auto& stage : result.statistics())
-    if (stage.name == "refine") return stage.count;
-  return 0;
-}
-
 void write(std::ostream& out, const std::vector<Pair>& pairs, const std::vector<Answer>& answers,
            const std::map<std::string, std::size_t>& index, const std::vector<Moved_scan>& scans)
 {
-  out.imbue(std::locale::classic());
   out << std::setprecision(12);
   out << "source,target,status,confidence,seconds,prepare_seconds,pair_seconds,overlap,residual,violations,"
          "score,runner_up,crude_degrees,icp_iterations";
@@ -138,20 +130,17 @@ void write(std::ostream& out, const std::vector<Pair>& pairs, const std::vector<
     const Moved_scan &source = scans[index.at(pairs[k].source)], &target = scans[index.at(pairs[k].target)];
     const auto& r = answers[k].result;
     const double prepare = source.seconds + target.seconds;
-    const auto motion = CR::internal::to_rigid_motion(r.transformation()),
-               crude = CR::internal::to_rigid_motion(r.crude_transformation());
-    const double crude_degrees =
-        Eigen::AngleAxisd(CR::internal::Matrix(motion.rotation * crude.rotation.transpose())).angle() * 180 / CGAL_PI;
+    const double crude_degrees = benchmark_tools::degrees_between(r.transformation(), r.crude_transformation());
     out << pairs[k].source << ',' << pairs[k].target << ',' << r.status() << ',' << r.confidence() << ','
         << prepare + answers[k].seconds << ',' << prepare << ',' << answers[k].seconds << ',' << r.overlap() << ','
         << r.residual() << ',' << r.free_space_violations() << ',' << r.score() << ','
         << (r.runners_up().empty() ? 0 : r.runners_up().front().score) << ',' << crude_degrees << ','
-        << number_of_iterations(r);
-    const auto in_files = target.moved_from_file.inverse() * motion * source.moved_from_file;
+        << benchmark_tools::stage(r, "refine").count;
+    const Transformation in_files = target.moved_from_file.inverse() * r.transformation() * source.moved_from_file;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 4; ++j) {
         out << ',';
-        if (r.status() != CR::NOT_REGISTERED) out << (j < 3 ? in_files.rotation(i, j) : in_files.translation[i]);
+        if (r.status() != CR::NOT_REGISTERED) out << in_files.m(i, j);
       }
     }
     out << '\n';
@@ -209,7 +198,7 @@ int main(int argc, char** argv)
       answers[k].seconds = seconds_since(begin);
     });
     const double elapsed = seconds_since(start);
-    CR::internal::write_atomically(output, [&](std::ostream& out) { write(out, pairs, answers, index, scans); });
+    benchmark_tools::write_file(output, [&](std::ostream& out) { write(out, pairs, answers, index, scans); });
 
     const auto registered = std::count_if(answers.begin(), answers.end(),
                                           [](const Answer& a) { return a.result.status() == CR::REGISTERED; });

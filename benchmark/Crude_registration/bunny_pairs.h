@@ -11,24 +11,27 @@
 // What tables 2 and 3 have in common: pairs of the Stanford bunny's scans registered by the paper's method, and how far
 // that is from the published poses.
 
+#include "result_tools.h"
+
 #include <CGAL/Crude_registration/IO/read_range_image.h>
-#include <CGAL/Crude_registration/reduction/approximation_error.h>
-#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
-#include <CGAL/Crude_registration/internal/matching/Trihedron_search.h>
+#include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
 #include <CGAL/Crude_registration/motion/refine_motion.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/register_scans.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
 #endif
 
-#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
@@ -40,55 +43,45 @@
 namespace bunny {
 
 namespace CR = CGAL::Crude_registration;
-using CR::internal::Rigid_motion;
-using CR::internal::Vector;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Transformation = CGAL::Aff_transformation_3<Kernel>;
 
-// A scan as far as it is prepared once.
 struct Dense_scan
 {
   std::string name;
+  CR::Range_image<Kernel> image;
   Mesh mesh;
-  CR::internal::Flat_mesh flat;
-  std::vector<Vector> normals;
-  CR::internal::Reduced_scan prepared;
-  double approximation_error = 0;
-  double extent = 0; // M
 };
 
 inline Dense_scan read_scan(const std::string& folder, const std::string& name)
 {
   Dense_scan scan;
   scan.name = name;
-  CR::Range_image<Kernel> image;
-  CR::read_range_image(folder + "/" + name, image);
-  CR::triangulate_range_image(image, scan.mesh);
-  scan.approximation_error = CR::approximation_error(image);
-  scan.extent = CR::scan_extent(image).mean();
-  scan.flat = CR::internal::to_flat_mesh(scan.mesh, CR::parameters::default_values(), "read_scan", "mesh");
-  scan.normals = CR::internal::vertex_normals(scan.flat);
-  scan.prepared = CR::internal::reduce_scan(scan.flat, CR::internal::to_flat_sensor(image.sensor()));
+  CR::read_range_image(folder + "/" + name, scan.image);
+  CR::triangulate_range_image(scan.image, scan.mesh);
   return scan;
 }
 
-// The S- or D-mesh: by the paper's approximation error, or to a number of vertices.
-template <class NamedParameters>
-CR::internal::Simplified_scan simplify(const Dense_scan& scan, const NamedParameters& stop)
+// A scan prepared for the paper's method.
+struct Prepared_scan
 {
-  Mesh mesh = scan.mesh;
-  CR::simplify_scan(mesh, stop);
-  mesh.collect_garbage();
-  CR::internal::Simplified_scan result = CR::internal::simplified_scan(
-      scan.prepared, CR::internal::to_flat_mesh(mesh, CR::parameters::default_values(), "simplify", "mesh"), scan.flat,
-      scan.normals);
-  result.extent = scan.extent;
-  return result;
+  CR::Scan<Kernel> scan;
+  std::size_t vertices; // of its simplified mesh, the S- or D-mesh
+};
+
+// `stop`: the approximation error or the number of vertices that the mesh is simplified to.
+template <class NamedParameters>
+Prepared_scan prepare(const Dense_scan& dense, const NamedParameters& stop)
+{
+  Mesh mesh = dense.mesh;
+  const std::size_t vertices = CR::simplify_scan(mesh, stop);
+  return {CR::Scan<Kernel>(dense.image, stop.candidates(CR::Trihedron_candidates()), dense.name), vertices};
 }
 
 // The published pose of a scan, from the lines "bmesh FILE tx ty tz qx qy qz qw" of bun.conf: it maps p to R(q)^T p +
 // t.
-inline Rigid_motion published_pose(const std::string& folder, const std::string& name)
+inline Transformation published_pose(const std::string& folder, const std::string& name)
 {
   const std::string file = folder + "/bun.conf";
   std::ifstream in(file);
@@ -98,20 +91,18 @@ inline Rigid_motion published_pose(const std::string& folder, const std::string&
     std::string key, scan;
     double tx, ty, tz, qx, qy, qz, qw;
     if (!(words >> key >> scan >> tx >> ty >> tz >> qx >> qy >> qz >> qw) || key != "bmesh" || scan != name) continue;
-    Rigid_motion pose;
-    pose.rotation = Eigen::Quaterniond(qw, -qx, -qy, -qz).normalized().toRotationMatrix();
-    pose.translation = Vector(tx, ty, tz);
-    return pose;
+    return benchmark_tools::to_motion<Kernel>(Eigen::Quaterniond(qw, -qx, -qy, -qz).normalized().toRotationMatrix(),
+                                              Eigen::Vector3d(tx, ty, tz));
   }
   throw std::runtime_error(file + ": no pose of " + name);
 }
 
-constexpr double degrees = 180 / 3.14159265358979323846;
+constexpr double degrees = 180 / CGAL_PI;
 
 // The part of a rotation that is about the y axis (the turn table's), without its sign, in degrees.
-inline double turn_about_y(const CR::internal::Matrix& rotation)
+inline double turn_about_y(const Transformation& motion)
 {
-  const Eigen::Quaterniond q(rotation);
+  const Eigen::Quaterniond q(benchmark_tools::rotation(motion));
   return degrees * 2 * std::atan2(std::abs(q.y()), std::abs(q.w()));
 }
 
@@ -122,10 +113,10 @@ struct Error
   double translation = 0; // length of the difference of the translation vectors
 
   Error() = default;
-  Error(const Rigid_motion& found, const Rigid_motion& wanted)
-      : rotation(degrees * Eigen::AngleAxisd(found.rotation * wanted.rotation.transpose()).angle()),
-        turn(std::abs(turn_about_y(found.rotation) - turn_about_y(wanted.rotation))),
-        translation((found.translation - wanted.translation).norm())
+  Error(const Transformation& found, const Transformation& wanted)
+      : rotation(benchmark_tools::degrees_between(found, wanted)),
+        turn(std::abs(turn_about_y(found) - turn_about_y(wanted))),
+        translation((benchmark_tools::translation(found) - benchmark_tools::translation(wanted)).norm())
   {}
 };
 
@@ -139,44 +130,47 @@ struct Options
 struct Registration
 {
   std::size_t s_vertices = 0, d_vertices = 0;
-  CR::internal::Trihedron_search_result search;
-  Rigid_motion truth, trihedron, crude, refined; // in the frames of the files
-  Error trihedron_error, crude_error, refined_error;
+  CR::Registration_result<Kernel> result;
+  double seconds = 0;            // of register_scans()
+  Transformation truth, refined; // the latter: the crude motion, refined on the dense meshes
+  Error crude_error, result_error, refined_error;
   std::size_t iterations = 0;
+
+  const Transformation& crude() const { return result.crude_transformation(); }
+  double search_seconds() const { return benchmark_tools::stage(result, "propose").seconds; }
+  std::size_t passes() const { return benchmark_tools::stage(result, "propose").count; }
+  std::size_t trihedra() const { return benchmark_tools::stage(result, "propose: trihedra").count; }
+  std::size_t candidates() const { return benchmark_tools::stage(result, "propose: matches").count; }
 };
 
 template <class ConcurrencyTag>
-Registration register_pair(const Dense_scan& source, const CR::internal::Simplified_scan& s, const Dense_scan& target,
-                           const CR::internal::Simplified_scan& d, const std::string& folder, const Options& options)
+Registration register_pair(const Dense_scan& source, const Prepared_scan& s, const Dense_scan& target,
+                           const Prepared_scan& d, const std::string& folder, const Options& options)
 {
-  CR::internal::Trihedron_search_parameters parameters;
-  parameters.minimum_extent = options.minimum_extent;
-  parameters.maximum_extent = options.maximum_extent;
-  parameters.use_normals = options.use_normals;
-
   Registration r;
-  r.s_vertices = s.vertices.points.size();
-  r.d_vertices = d.vertices.points.size();
-  r.search = CR::internal::Trihedron_search<ConcurrencyTag>(source.prepared, s, target.prepared, d, parameters)();
-  const auto in_frames_of_files = [&](const Rigid_motion& m) {
-    return target.prepared.own_from_input.inverse() * m * source.prepared.own_from_input;
-  };
-  r.trihedron = in_frames_of_files(r.search.trihedron_motion);
-  r.crude = in_frames_of_files(r.search.crude_motion);
-  const auto fine =
-      CR::refine_motion<ConcurrencyTag>(source.mesh, target.mesh, CR::internal::to_aff_transformation<Kernel>(r.crude));
-  r.refined = CR::internal::to_rigid_motion(fine.motion);
+  r.s_vertices = s.vertices;
+  r.d_vertices = d.vertices;
+  const auto start = std::chrono::steady_clock::now();
+  r.result = CR::register_scans<ConcurrencyTag>(s.scan, d.scan,
+                                                CR::parameters::candidates(CR::Trihedron_candidates())
+                                                    .minimum_extent(options.minimum_extent)
+                                                    .maximum_extent(options.maximum_extent)
+                                                    .use_normals(options.use_normals));
+  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (r.result.status() == CR::NOT_REGISTERED)
+    throw std::runtime_error(source.name + " and " + target.name + ": " + r.result.reason());
+  const auto fine = CR::refine_motion<ConcurrencyTag>(source.mesh, target.mesh, r.crude());
+  r.refined = fine.motion;
   r.iterations = fine.iterations;
   r.truth = published_pose(folder, target.name).inverse() * published_pose(folder, source.name);
-  r.trihedron_error = Error(r.trihedron, r.truth);
-  r.crude_error = Error(r.crude, r.truth);
+  r.crude_error = Error(r.crude(), r.truth);
+  r.result_error = Error(r.result.transformation(), r.truth);
   r.refined_error = Error(r.refined, r.truth);
   return r;
 }
 
-inline Registration register_pair(const Dense_scan& source, const CR::internal::Simplified_scan& s,
-                                  const Dense_scan& target, const CR::internal::Simplified_scan& d,
-                                  const std::string& folder, const Options& options)
+inline Registration register_pair(const Dense_scan& source, const Prepared_scan& s, const Dense_scan& target,
+                                  const Prepared_scan& d, const std::string& folder, const Options& options)
 {
 #ifdef CGAL_LINKED_WITH_TBB
   if (options.threads > 1) {

@@ -16,19 +16,22 @@
 #include "csv_table.h"
 #include "moved_scan.h"
 #include "reference_time.h"
+#include "result_tools.h"
+#include "write_file.h"
 #include "peers/Peer.h"
 #include "peers/open3d.h"
 #include "peers/pcl.h"
 
 #include <CGAL/Crude_registration/sampling/estimate_sensor.h>
-#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 #include <CGAL/Crude_registration/register_scans.h>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -54,8 +57,7 @@ using benchmark_tools::Kernel;
 using benchmark_tools::Peer_answer;
 using benchmark_tools::Peer_scan;
 using benchmark_tools::Peer_setting;
-using CR::internal::Rigid_motion;
-using CR::internal::Vector;
+using benchmark_tools::Transformation;
 
 namespace {
 
@@ -72,8 +74,14 @@ struct Scan_in_memory
   benchmark_tools::Moved_file moved;
   std::optional<Kernel::Point_3> viewpoint; // of what is no range image
   Peer_scan samples;                        // the same for the peers
-  Vector centroid = Vector::Zero();
+  Kernel::Point_3 centroid = CGAL::ORIGIN;
 };
+
+template <class Point_or_vector>
+Eigen::Vector3d to_eigen(const Point_or_vector& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
 
 Scan_in_memory read_scan(const std::string& path, const std::string& name,
                          const std::optional<Kernel::Point_3>& viewpoint)
@@ -81,25 +89,29 @@ Scan_in_memory read_scan(const std::string& path, const std::string& name,
   Scan_in_memory scan;
   scan.moved = benchmark_tools::read_and_move(path, name);
   const CR::Scan_file<Kernel>& file = scan.moved.file;
-  Eigen::AlignedBox3d box;
+  const Transformation file_from_moved = scan.moved.moved_from_file.inverse();
+  CGAL::Bbox_3 box; // of what is in the file
+  Kernel::Vector_3 sum = CGAL::NULL_VECTOR;
   const auto add = [&](const Kernel::Point_3& p) {
-    const Vector v = CR::internal::to_vector(p);
-    scan.samples.points.push_back(v);
-    scan.centroid += v;
-    box.extend(scan.moved.moved_from_file.inverse()(v)); // the diagonal is that of the file's
+    scan.samples.points.emplace_back(p.x(), p.y(), p.z());
+    sum = sum + (p - CGAL::ORIGIN);
+    box += p.transform(file_from_moved).bbox();
   };
   for (const auto& p : file.image.points()) add(p);
   for (const auto& p : file.points) add(p);
   for (const auto& p : file.mesh.points()) add(p);
   if (scan.samples.points.empty()) throw std::runtime_error(path + ": the scan has no samples");
-  scan.centroid /= double(scan.samples.points.size());
-  scan.samples.diagonal = box.diagonal().norm();
+  scan.centroid = CGAL::ORIGIN + sum / double(scan.samples.points.size());
+  const Kernel::Vector_3 diagonal(box.x_span(), box.y_span(), box.z_span());
+  scan.samples.diagonal = std::sqrt(diagonal.squared_length());
   if (file.kind == CR::Scan_file<Kernel>::RANGE_IMAGE) {
-    const auto& sensor = file.image.sensor();
-    scan.samples.sensor = CR::internal::to_flat_sensor(sensor.is_known() ? sensor : CR::estimate_sensor(file.image));
+    CR::Sensor<Kernel> sensor = file.image.sensor();
+    if (!sensor.is_known()) sensor = CR::estimate_sensor(file.image);
+    if (sensor.is_perspective()) scan.samples.viewpoint = to_eigen(sensor.viewpoint());
+    if (sensor.is_orthographic()) scan.samples.viewing_direction = to_eigen(sensor.viewing_direction());
   } else if (viewpoint) {
     scan.viewpoint = scan.moved.moved(*viewpoint);
-    scan.samples.sensor = CR::internal::to_flat_sensor(CR::Sensor<Kernel>::perspective(*scan.viewpoint));
+    scan.samples.viewpoint = to_eigen(*scan.viewpoint);
   }
   return scan;
 }
@@ -117,10 +129,8 @@ Peer_answer register_by_this_package(const Scan_in_memory& source, const Scan_in
   const auto result = CR::register_scans(prepare(source), prepare(target));
   answer.seconds = cpu_seconds() - start;
   answer.is_found = result.status() == CR::REGISTERED;
-  const Rigid_motion motion = CR::internal::to_rigid_motion(result.transformation());
-  Eigen::Matrix<double, 3, 4> matrix;
-  matrix << motion.rotation, motion.translation;
-  answer.set_motion(matrix);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) answer.matrix[i][j] = result.transformation().m(i, j);
   return answer;
 }
 
@@ -220,18 +230,15 @@ struct Run
 void judge(const Peer_answer& answer, const benchmark_tools::Motion& truth, const Scan_in_memory& source,
            const Scan_in_memory& target, Row& row)
 {
-  Rigid_motion moved;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) moved.rotation(i, j) = answer.matrix[i][j];
-    moved.translation[i] = answer.matrix[i][3];
-  }
-  const Rigid_motion found = target.moved.moved_from_file.inverse() * moved * source.moved.moved_from_file;
-  const Vector centroid = source.moved.moved_from_file.inverse()(source.centroid);
-  const CR::internal::Matrix turn = found.rotation * truth.leftCols<3>().transpose();
+  const auto& m = answer.matrix;
+  const Transformation moved(m[0][0], m[0][1], m[0][2], m[0][3], m[1][0], m[1][1], m[1][2], m[1][3], m[2][0], m[2][1],
+                             m[2][2], m[2][3]);
+  const Transformation found = target.moved.moved_from_file.inverse() * moved * source.moved.moved_from_file;
+  const Kernel::Point_3 centroid = source.centroid.transform(source.moved.moved_from_file.inverse());
+  const Eigen::Vector3d wanted = truth.leftCols<3>() * to_eigen(centroid) + truth.col(3);
   row.is_found = answer.is_found;
-  row.degrees = Eigen::AngleAxisd(turn).angle() * 180 / CGAL_PI;
-  row.centroid_error =
-      (found(centroid) - (truth.leftCols<3>() * centroid + truth.col(3))).norm() / source.samples.diagonal;
+  row.degrees = benchmark_tools::degrees_between(benchmark_tools::rotation(found), truth.leftCols<3>());
+  row.centroid_error = (to_eigen(centroid.transform(found)) - wanted).norm() / source.samples.diagonal;
   row.is_right = row.is_found && row.degrees < 5 && row.centroid_error < 0.05;
 }
 
@@ -316,7 +323,7 @@ void print(const std::vector<Row>& rows, const std::vector<Method>& methods, dou
 void write_csv(const std::string& file, const std::vector<Row>& rows, const std::vector<Method>& methods,
                double reference)
 {
-  CR::internal::write_atomically(file, [&](std::ostream& out) {
+  benchmark_tools::write_file(file, [&](std::ostream& out) {
     out << "source,target,overlap,method,found,right,degrees,centroid_error,seconds,reference_seconds,peak_bytes,"
            "own_bytes\n";
     for (const Row& r : rows)

@@ -12,17 +12,22 @@
 
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
-#include <CGAL/Crude_registration/internal/matching/Pose_search.h>
-#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
+#include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
+#include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
-#include <CGAL/Crude_registration/reduction/principal_curvatures.h>
+#include <CGAL/Crude_registration/internal/matching/Oriented_pair_search.h>
+#include <CGAL/Crude_registration/internal/motion/refine_step.h>
+#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
 #include <CGAL/Crude_registration/motion/refine_motion.h>
-#include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/reduction/principal_curvatures.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/sampling/sampling_distance.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -60,8 +65,8 @@ struct Input
   // target from source, in the frames of the prepared scans
   CR::internal::Pose true_pose() const
   {
-    return CR::internal::to_pose(target_scan.prepared().own_from_input * truth *
-                                 source_scan.prepared().own_from_input.inverse());
+    return CR::internal::to_pose(target_scan.reduced().own_from_input * truth *
+                                 source_scan.reduced().own_from_input.inverse());
   }
 };
 
@@ -141,19 +146,33 @@ void preparation_of_mesh(benchmark::State& state)
   count_vertices(state, in.source_mesh);
 }
 
-// What the searches below have in common: scans prepared from about 40,000 samples; their surfels are as many whatever
-// the size of a scan.
-CR::internal::Pose_search<> search_of(const Input& in)
+// What the search and the judgement below start from: scans reduced from about 40,000 samples; their surfels are as
+// many whatever the size of a scan.
+CR::internal::Oriented_pair_search search_of(const Input& in)
 {
-  static CR::internal::Run_control to_the_end;
-  return {in.source_scan.prepared(), in.target_scan.prepared(), CR::internal::Search_parameters(), to_the_end};
+  return {in.source_scan.reduced(), in.target_scan.reduced(), CR::internal::Oriented_pair_parameters(),
+          CR::internal::Execution::SEQUENTIAL};
+}
+
+CR::internal::Pose_judge judge_of(const Input& in)
+{
+  return {in.source_scan.reduced(), in.target_scan.reduced(), CR::internal::Execution::SEQUENTIAL,
+          CR::internal::to_the_end()};
+}
+
+CR::internal::Proposals proposals_of(const Input& in)
+{
+  auto search = search_of(in);
+  CR::internal::Proposals proposals;
+  search.next(CR::internal::to_the_end(), proposals);
+  return proposals;
 }
 
 void index_of_pairs(benchmark::State& state)
 {
-  const CR::internal::Reduced_scan& target = input(state).target_scan.prepared();
-  const CR::internal::Search_parameters parameters;
-  const float length = parameters.rounds.front().scales.front() * float(target.extent),
+  const CR::internal::Reduced_scan& target = input(state).target_scan.reduced();
+  const CR::internal::Oriented_pair_parameters parameters;
+  const float length = parameters.length(parameters.rounds.front().scales.front()) * float(target.extent),
               half_width = parameters.target_half_width * target.coarse.spacing;
   std::size_t size = 0;
   for (auto _ : state) {
@@ -167,44 +186,78 @@ void index_of_pairs(benchmark::State& state)
 void search_round(benchmark::State& state)
 {
   const Input& in = input(state);
-  const CR::internal::Search_round round = CR::internal::Search_parameters().rounds.front();
-  std::size_t looks = 0, candidates = 0;
+  std::vector<CR::internal::Stage_record> stages;
   for (auto _ : state) {
     auto search = search_of(in);
-    benchmark::DoNotOptimize(search.next_round(round));
-    looks = search.counts().looks;
-    candidates = search.counts().candidates;
+    CR::internal::Proposals proposals;
+    benchmark::DoNotOptimize(search.next(CR::internal::to_the_end(), proposals));
+    stages = search.stages();
   }
-  state.SetItemsProcessed(state.iterations() * std::int64_t(looks));
-  state.counters["candidates"] = double(candidates);
+  for (const CR::internal::Stage_record& s : stages) {
+    if (s.name == "propose: looks") state.SetItemsProcessed(state.iterations() * std::int64_t(s.count));
+    if (s.name == "propose: scores") state.counters["candidates"] = double(s.count);
+  }
 }
 
-// The refinement of the candidates of the first round; per candidate.
-void search_refinement(benchmark::State& state)
-{
-  auto search = search_of(input(state));
-  const CR::internal::Search_round round = CR::internal::Search_parameters().rounds.front();
-  const auto candidates = search.next_round(round);
-  for (auto _ : state) benchmark::DoNotOptimize(search.refined(candidates, round.judged));
-  state.SetItemsProcessed(state.iterations() * std::int64_t(candidates.size()));
-}
-
-void search_judgement(benchmark::State& state)
+// The refinement of what the first round proposes, and the close look at the best; per proposal.
+void judgement_of_round(benchmark::State& state)
 {
   const Input& in = input(state);
-  auto search = search_of(in);
+  auto judge = judge_of(in);
+  const CR::internal::Proposals proposals = proposals_of(in);
+  for (auto _ : state) benchmark::DoNotOptimize(judge(proposals.poses, proposals.judged));
+  state.SetItemsProcessed(state.iterations() * std::int64_t(proposals.poses.size()));
+}
+
+// A close look at one pose: its refinement on the fine surfels, and its score.
+void judgement_of_pose(benchmark::State& state)
+{
+  const Input& in = input(state);
+  const auto judge = judge_of(in);
   const CR::internal::Pose pose = in.true_pose();
-  for (auto _ : state) benchmark::DoNotOptimize(search.judge(pose));
+  for (auto _ : state) benchmark::DoNotOptimize(judge.judged(pose));
 }
 
-void search_score(benchmark::State& state)
+void score_of_pose(benchmark::State& state)
 {
   const Input& in = input(state);
-  const auto search = search_of(in);
+  const auto judge = judge_of(in);
   const CR::internal::Pose pose = in.true_pose();
   float score = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(score = search.assess(pose).score());
+  for (auto _ : state) benchmark::DoNotOptimize(score = judge.assess(pose).score());
   state.counters["score"] = double(score);
+}
+
+// The agreement of all coarse probes, without an end at a bound; per probe of either scan.
+void agreement_of_probes(benchmark::State& state)
+{
+  const Input& in = input(state);
+  const CR::internal::Reduced_scan &source = in.source_scan.reduced(), &target = in.target_scan.reduced();
+  const CR::internal::Probes source_probes(source.coarse, 0, source.coarse.probes.size()),
+      target_probes(target.coarse, 0, target.coarse.probes.size());
+  const float spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
+  const CR::internal::Look look{spacing, 0.7f, spacing};
+  const CR::internal::Pose pose = in.true_pose();
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        CR::internal::agreement(source, source_probes, target, target_probes, target.coarse, pose, look));
+  state.SetItemsProcessed(state.iterations() * std::int64_t(source_probes.size() + target_probes.size()));
+}
+
+// One step of refinement on the coarse surfels, from half a spacing off; per probe.
+void refinement_step(benchmark::State& state)
+{
+  const Input& in = input(state);
+  const CR::internal::Reduced_scan &source = in.source_scan.reduced(), &target = in.target_scan.reduced();
+  const CR::internal::Probes probes(source.coarse, 0, source.coarse.probes.size());
+  const float spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
+  CR::internal::Pose start = in.true_pose();
+  start.translation[0] += 0.5f * spacing;
+  for (auto _ : state) {
+    CR::internal::Pose pose = start;
+    benchmark::DoNotOptimize(CR::internal::refine_step(probes, target.coarse, {spacing, 0.7f}, pose));
+  }
+  state.SetItemsProcessed(state.iterations() * std::int64_t(probes.size()));
 }
 
 void registration(benchmark::State& state)
@@ -235,9 +288,11 @@ BENCHMARK(preparation_of_image)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(bench
 BENCHMARK(preparation_of_mesh)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(benchmark::kMillisecond);
 BENCHMARK(index_of_pairs)->Arg(40000)->Unit(benchmark::kMillisecond);
 BENCHMARK(search_round)->Arg(40000)->Unit(benchmark::kMillisecond);
-BENCHMARK(search_refinement)->Arg(40000)->Unit(benchmark::kMillisecond);
-BENCHMARK(search_judgement)->Arg(40000)->Unit(benchmark::kMillisecond);
-BENCHMARK(search_score)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(judgement_of_round)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(judgement_of_pose)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(score_of_pose)->Arg(40000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(agreement_of_probes)->Arg(40000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(refinement_step)->Arg(40000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(registration)->Arg(40000)->Unit(benchmark::kMillisecond);
 BENCHMARK(refinement_on_meshes)->Arg(10000)->Arg(40000)->Unit(benchmark::kMillisecond);
 

@@ -10,11 +10,10 @@
 
 // Pairs of scans in files, each scan moved by a rigid motion of its own, so that no start and no axis helps.
 
+#include "result_tools.h"
+
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/internal/base/Counter_random.h>
-#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
-#include <CGAL/Crude_registration/motion/rigid_motion.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/transform.h>
@@ -25,6 +24,7 @@
 #include <cstdint>
 #include <fstream>
 #include <optional>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -34,6 +34,7 @@ namespace benchmark_tools {
 
 namespace CR = CGAL::Crude_registration;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Transformation = CGAL::Aff_transformation_3<Kernel>;
 
 struct Pair
 {
@@ -74,35 +75,30 @@ inline std::optional<Kernel::Point_3> read_point(const std::string& text)
   return Kernel::Point_3(x, y, z);
 }
 
-// A rigid motion that depends on the name alone: a turn drawn evenly from all, a shift of up to the scan's size.
-inline CR::internal::Rigid_motion motion_of_name(const std::string& name, double size)
+// A rigid motion that depends on the name and the size alone: a turn drawn evenly from all, a shift of up to the size.
+inline Transformation motion_of_name(const std::string& name, double size)
 {
-  std::uint64_t state = 14695981039346656037u;
-  for (char c : name) state = CR::internal::Counter_random::mixed(state ^ static_cast<unsigned char>(c));
-  const auto next = [&state] {
-    state = CR::internal::Counter_random::mixed(state);
-    return 2 * (double(state >> 11) / 9007199254740992.) - 1;
-  };
+  std::uint64_t hash = 14695981039346656037u; // FNV-1a
+  for (char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  // The standard says which numbers the engine gives; those of its distributions differ from library to library.
+  std::mt19937_64 random(hash);
+  const auto next = [&random] { return 2 * (double(random() >> 11) * 0x1p-53) - 1; }; // in [-1, 1)
   Eigen::Quaterniond q;
   do {
     const double w = next(), x = next(), y = next(), z = next();
     q = Eigen::Quaterniond(w, x, y, z);
   } while (q.norm() > 1 || q.norm() < 0.1);
-  CR::internal::Rigid_motion motion;
-  motion.rotation = q.normalized().toRotationMatrix();
-  for (int i = 0; i < 3; ++i) motion.translation[i] = size * next();
-  return motion;
+  Eigen::Vector3d shift;
+  for (int i = 0; i < 3; ++i) shift[i] = size * next();
+  return to_motion<Kernel>(q.normalized().toRotationMatrix(), shift);
 }
 
 struct Moved_file
 {
   CR::Scan_file<Kernel> file;
-  CR::internal::Rigid_motion moved_from_file;
+  Transformation moved_from_file = Transformation(CGAL::IDENTITY);
 
-  Kernel::Point_3 moved(const Kernel::Point_3& p) const
-  {
-    return p.transform(CR::internal::to_aff_transformation<Kernel>(moved_from_file));
-  }
+  Kernel::Point_3 moved(const Kernel::Point_3& p) const { return p.transform(moved_from_file); }
 };
 
 inline Moved_file read_and_move(const std::string& path, const std::string& name)
@@ -116,7 +112,7 @@ inline Moved_file read_and_move(const std::string& path, const std::string& name
   for (const auto& p : file.mesh.points()) box += p.bbox();
   moved.moved_from_file =
       motion_of_name(name, (std::max)({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()}));
-  const auto motion = CR::internal::to_aff_transformation<Kernel>(moved.moved_from_file);
+  const Transformation& motion = moved.moved_from_file;
   CR::transform(file.image, motion);
   for (auto& p : file.points) p = p.transform(motion);
   CGAL::Polygon_mesh_processing::transform(motion, file.mesh);

@@ -12,13 +12,11 @@
 #include "generated_scan.h"
 #include "plot_script.h"
 #include "reference_time.h"
+#include "result_tools.h"
+#include "write_file.h"
 
-#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 #include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/motion/rigid_motion.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
-
-#include <Eigen/Geometry>
 
 #include <boost/program_options.hpp>
 
@@ -221,12 +219,10 @@ Registration register_two(const CR::Scan<Kernel>& source, const CR::Scan<Kernel>
   Registration result = {};
   result.seconds = cpu_seconds() - start;
   result.status = found.status();
-  CR::internal::Matrix wanted;
+  Eigen::Matrix3d wanted;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) wanted(i, j) = truth.matrix[i][j];
-  const auto motion = CR::internal::to_rigid_motion(found.transformation());
-  result.degrees =
-      Eigen::AngleAxisd(CR::internal::Matrix(motion.rotation * wanted.transpose())).angle() * 180 / CGAL_PI;
+  result.degrees = benchmark_tools::degrees_between(benchmark_tools::rotation(found.transformation()), wanted);
   return result;
 }
 
@@ -248,7 +244,7 @@ void print(const Row& row)
 
 void write_csv(const std::string& file, const std::vector<Row>& rows)
 {
-  CR::internal::write_atomically(file, [&](std::ostream& out) {
+  benchmark_tools::write_file(file, [&](std::ostream& out) {
     out << "input,vertices,reference_seconds,prepare_seconds,prepare_r,input_bytes,peak_bytes,register_seconds,"
            "register_r,status,degrees\n";
     for (const Row& r : rows)
@@ -261,7 +257,7 @@ void write_csv(const std::string& file, const std::vector<Row>& rows)
 
 void write_plot(const std::string& file, const std::string& csv)
 {
-  CR::internal::write_atomically(file, [&](std::ostream& out) {
+  benchmark_tools::write_file(file, [&](std::ostream& out) {
     const auto curve = [&](const char* kind, const char* column, const char* title) {
       out << quoted(csv) << " using (strcol(1) eq '" << kind << "' ? $2 : NaN):" << column
           << " skip 1 with linespoints title '" << title << "'";

@@ -9,8 +9,7 @@
 
 #include "bunny_pairs.h"
 #include "command_line.h"
-
-#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
+#include "write_file.h"
 
 #include <boost/program_options.hpp>
 
@@ -47,9 +46,9 @@ void print_motion(std::ostream& out, double turn, double x, double y, double z)
   for (double c : {x, y, z}) out << std::setw(9) << c;
 }
 
-void print_motion(std::ostream& out, const CR::internal::Rigid_motion& m)
+void print_motion(std::ostream& out, const bunny::Transformation& m)
 {
-  print_motion(out, bunny::turn_about_y(m.rotation), m.translation.x(), m.translation.y(), m.translation.z());
+  print_motion(out, bunny::turn_about_y(m), m.m(0, 3), m.m(1, 3), m.m(2, 3));
 }
 
 void print(const Paper_row& p, const bunny::Registration& r)
@@ -57,7 +56,7 @@ void print(const Paper_row& p, const bunny::Registration& r)
   std::ostringstream out;
   out << std::left << std::setw(9) << p.images << std::setw(7) << "ours" << std::right;
   print_motion(out, r.truth);
-  print_motion(out, r.crude);
+  print_motion(out, r.crude());
   print_motion(out, r.refined);
   out << '\n' << std::left << std::setw(9) << "" << std::setw(7) << "paper" << std::right;
   for (const auto& m : {p.truth, p.crude, p.refined}) print_motion(out, m[0], m[1], m[2], m[3]);
@@ -67,10 +66,11 @@ void print(const Paper_row& p, const bunny::Registration& r)
 void print_errors(const std::vector<bunny::Registration>& rows)
 {
   std::ostringstream out;
-  out << "\n              vertices            best trihedron       crude                after ICP\n"
-      << "images       S      D  passes    degrees   length   degrees   length   degrees   length  iterations  search "
-         "s\n";
-  bunny::Error trihedron, crude, refined;
+  out << "\n              vertices            crude               answer             after ICP                       "
+         "seconds\n"
+      << "images       S      D  passes    degrees   length   degrees   length   degrees   length  iterations   search "
+         "   whole  status\n";
+  bunny::Error crude, answer, refined;
   std::size_t most_iterations = 0;
   const auto print_error = [&](const bunny::Error& e) {
     out << std::fixed << std::setprecision(3) << std::setw(11) << e.rotation << std::setprecision(5) << std::setw(9)
@@ -84,47 +84,50 @@ void print_errors(const std::vector<bunny::Registration>& rows)
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bunny::Registration& r = rows[i];
     out << std::left << std::setw(9) << paper[i].images << std::right << std::setw(5) << r.s_vertices << std::setw(7)
-        << r.d_vertices << std::setw(8) << r.search.passes;
-    print_error(r.trihedron_error);
+        << r.d_vertices << std::setw(8) << r.passes();
     print_error(r.crude_error);
+    print_error(r.result_error);
     print_error(r.refined_error);
-    out << std::setw(10) << r.iterations << std::setprecision(3) << std::setw(11) << r.search.seconds << '\n';
-    add(trihedron, r.trihedron_error);
+    out << std::setw(12) << r.iterations << std::setprecision(3) << std::setw(9) << r.search_seconds() << std::setw(9)
+        << r.seconds << "  " << r.result.status() << '\n';
     add(crude, r.crude_error);
+    add(answer, r.result_error);
     add(refined, r.refined_error);
     most_iterations = (std::max)(most_iterations, r.iterations);
   }
   out << std::left << std::setw(29) << "mean (iterations: most)" << std::right;
-  print_error(trihedron);
   print_error(crude);
+  print_error(answer);
   print_error(refined);
-  out << std::setw(10) << most_iterations << '\n' << std::left << std::setw(49) << "  turn about y alone" << std::right;
-  out << std::setprecision(3) << std::setw(11) << crude.turn << std::setw(20) << refined.turn << '\n';
-  out << std::left << std::setw(49) << "paper (turn about y)" << std::right << std::setw(11) << paper_crude_rotation
-      << std::setprecision(5) << std::setw(9) << paper_crude_translation << std::setprecision(3) << std::setw(11)
-      << paper_refined_rotation << std::setw(19) << "4-8" << '\n';
-  out << "\nbest trihedron: least squares over its four vertices; crude: re-estimated from all vertices of the two\n"
-         "simplified meshes that agree under it; degrees: angle of the whole rotation that is left over\n";
+  out << std::setw(12) << most_iterations << '\n' << std::left << std::setw(29) << "  turn about y alone" << std::right;
+  out << std::setprecision(3) << std::setw(11) << crude.turn << std::setw(20) << answer.turn << std::setw(20)
+      << refined.turn << '\n';
+  out << std::left << std::setw(29) << "paper (turn about y)" << std::right << std::setw(11) << paper_crude_rotation
+      << std::setprecision(5) << std::setw(9) << paper_crude_translation << std::setprecision(3) << std::setw(31)
+      << paper_refined_rotation << std::setw(21) << "4-8" << '\n';
+  out << "\ncrude: as the search proposed it, estimated from all vertices of the two simplified meshes that agree;\n"
+         "answer: that of register_scans(), refined on the reduced scans; after ICP: crude, refined on the dense\n"
+         "meshes; degrees: angle of the whole rotation that is left over; seconds: of the search, and of\n"
+         "register_scans() as a whole\n";
   std::cout << out.str();
 }
 
 void write_csv(const std::string& file, const std::vector<bunny::Registration>& rows)
 {
-  CR::internal::write_atomically(file, [&](std::ostream& out) {
-    out << "images,s_vertices,d_vertices,passes,trihedra,candidates,search_seconds,score,iterations";
-    for (const char* motion : {"true", "trihedron", "crude", "icp"})
+  benchmark_tools::write_file(file, [&](std::ostream& out) {
+    out << "images,s_vertices,d_vertices,status,passes,trihedra,candidates,search_seconds,seconds,score,iterations";
+    for (const char* motion : {"true", "crude", "answer", "icp"})
       for (const char* column : {"turn", "x", "y", "z"}) out << ',' << motion << '_' << column;
-    for (const char* motion : {"trihedron", "crude", "icp"}) out << ',' << motion << "_degrees," << motion << "_length";
+    for (const char* motion : {"crude", "answer", "icp"}) out << ',' << motion << "_degrees," << motion << "_length";
     out << '\n';
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const bunny::Registration& r = rows[i];
-      out << paper[i].images << ',' << r.s_vertices << ',' << r.d_vertices << ',' << r.search.passes << ','
-          << r.search.trihedra << ',' << r.search.candidates << ',' << r.search.seconds << ',' << r.search.score << ','
-          << r.iterations;
-      for (const auto& m : {r.truth, r.trihedron, r.crude, r.refined})
-        out << ',' << bunny::turn_about_y(m.rotation) << ',' << m.translation.x() << ',' << m.translation.y() << ','
-            << m.translation.z();
-      for (const auto& e : {r.trihedron_error, r.crude_error, r.refined_error})
+      out << paper[i].images << ',' << r.s_vertices << ',' << r.d_vertices << ',' << r.result.status() << ','
+          << r.passes() << ',' << r.trihedra() << ',' << r.candidates() << ',' << r.search_seconds() << ',' << r.seconds
+          << ',' << r.result.score() << ',' << r.iterations;
+      for (const auto& m : {r.truth, r.crude(), r.result.transformation(), r.refined})
+        out << ',' << bunny::turn_about_y(m) << ',' << m.m(0, 3) << ',' << m.m(1, 3) << ',' << m.m(2, 3);
+      for (const auto& e : {r.crude_error, r.result_error, r.refined_error})
         out << ',' << e.rotation << ',' << e.translation;
       out << '\n';
     }
@@ -134,11 +137,11 @@ void write_csv(const std::string& file, const std::vector<bunny::Registration>& 
 int run(const std::string& folder, const std::string& csv, const bunny::Options& options)
 {
   std::vector<bunny::Dense_scan> scans;
-  std::vector<CR::internal::Simplified_scan> simplified;
+  std::vector<bunny::Prepared_scan> prepared;
   for (const char* name : {"bun000.ply", "bun090.ply", "bun180.ply", "bun270.ply"}) {
     scans.push_back(bunny::read_scan(folder, name));
-    simplified.push_back(
-        bunny::simplify(scans.back(), CR::parameters::approximation_error(scans.back().approximation_error)));
+    prepared.push_back(
+        bunny::prepare(scans.back(), CR::parameters::approximation_error(CR::approximation_error(scans.back().image))));
   }
   std::cout << "                                true                                crude                             "
                "after ICP\n"
@@ -147,7 +150,7 @@ int run(const std::string& folder, const std::string& csv, const bunny::Options&
   std::vector<bunny::Registration> rows;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const std::size_t j = (i + 1) % scans.size();
-    rows.push_back(bunny::register_pair(scans[i], simplified[i], scans[j], simplified[j], folder, options));
+    rows.push_back(bunny::register_pair(scans[i], prepared[i], scans[j], prepared[j], folder, options));
     print(paper[i], rows.back());
   }
   print_errors(rows);

@@ -10,8 +10,7 @@
 #include "bunny_pairs.h"
 #include "command_line.h"
 #include "plot_script.h"
-
-#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
+#include "write_file.h"
 
 #include <boost/program_options.hpp>
 
@@ -52,12 +51,12 @@ void print(std::size_t level, const bunny::Registration& r)
         << whose << std::right << std::setw(6) << s << std::setw(6) << d << std::fixed << std::setprecision(3)
         << std::setw(9) << turn << std::setprecision(4) << std::setw(9) << x << std::setw(9) << y << std::setw(9) << z;
   };
-  const CR::internal::Vector& t = r.crude.translation;
-  line("ours", r.s_vertices, r.d_vertices, bunny::turn_about_y(r.crude.rotation), t.x(), t.y(), t.z());
+  const bunny::Transformation& m = r.crude();
+  line("ours", r.s_vertices, r.d_vertices, bunny::turn_about_y(m), m.m(0, 3), m.m(1, 3), m.m(2, 3));
   out << std::setprecision(3) << std::setw(9) << r.crude_error.rotation << std::setprecision(4) << std::setw(9)
-      << r.crude_error.translation << std::setprecision(3) << std::setw(11) << r.search.seconds << std::setw(8)
-      << r.search.passes << std::setw(10) << r.search.trihedra << std::setw(11) << r.search.candidates
-      << std::setprecision(3) << std::setw(9) << r.refined_error.rotation << std::setw(6) << r.iterations << '\n';
+      << r.crude_error.translation << std::setprecision(3) << std::setw(11) << r.search_seconds() << std::setw(9)
+      << r.seconds << std::setw(8) << r.passes() << std::setw(10) << r.trihedra() << std::setw(11) << r.candidates()
+      << std::setw(9) << r.refined_error.rotation << std::setw(6) << r.iterations << "  " << r.result.status() << '\n';
   line("paper", p.s_vertices, p.d_vertices, p.turn, p.x, p.y, p.z);
   out << std::setprecision(2) << std::setw(9) << p.turn_error << std::setw(9) << p.translation_error
       << std::setprecision(0) << std::setw(11) << p.seconds << '\n';
@@ -66,18 +65,18 @@ void print(std::size_t level, const bunny::Registration& r)
 
 void write_csv(const std::string& file, const std::vector<bunny::Registration>& rows)
 {
-  CR::internal::write_atomically(file, [&](std::ostream& out) {
+  benchmark_tools::write_file(file, [&](std::ostream& out) {
     out << "level,s_vertices,d_vertices,seconds,turn,x,y,z,degrees,length,icp_degrees,icp_length,icp_iterations,passes,"
-           "trihedra,candidates,score,paper_s_vertices,paper_d_vertices,paper_seconds\n";
+           "trihedra,candidates,score,paper_s_vertices,paper_d_vertices,paper_seconds,whole_seconds,status\n";
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const bunny::Registration& r = rows[i];
-      const CR::internal::Vector& t = r.crude.translation;
-      out << i + 1 << ',' << r.s_vertices << ',' << r.d_vertices << ',' << r.search.seconds << ','
-          << bunny::turn_about_y(r.crude.rotation) << ',' << t.x() << ',' << t.y() << ',' << t.z() << ','
+      const bunny::Transformation& m = r.crude();
+      out << i + 1 << ',' << r.s_vertices << ',' << r.d_vertices << ',' << r.search_seconds() << ','
+          << bunny::turn_about_y(m) << ',' << m.m(0, 3) << ',' << m.m(1, 3) << ',' << m.m(2, 3) << ','
           << r.crude_error.rotation << ',' << r.crude_error.translation << ',' << r.refined_error.rotation << ','
-          << r.refined_error.translation << ',' << r.iterations << ',' << r.search.passes << ',' << r.search.trihedra
-          << ',' << r.search.candidates << ',' << r.search.score << ',' << paper[i].s_vertices << ','
-          << paper[i].d_vertices << ',' << paper[i].seconds << '\n';
+          << r.refined_error.translation << ',' << r.iterations << ',' << r.passes() << ',' << r.trihedra() << ','
+          << r.candidates() << ',' << r.result.score() << ',' << paper[i].s_vertices << ',' << paper[i].d_vertices
+          << ',' << paper[i].seconds << ',' << r.seconds << ',' << r.result.status() << '\n';
     }
   });
 }
@@ -85,7 +84,7 @@ void write_csv(const std::string& file, const std::vector<bunny::Registration>& 
 // Figure 12 with both curves, on a logarithmic axis as they are four orders of magnitude apart.
 void write_plot(const std::string& file, const std::string& csv)
 {
-  CR::internal::write_atomically(file, [&](std::ostream& out) {
+  benchmark_tools::write_file(file, [&](std::ostream& out) {
     out << "set terminal pngcairo size 800,500\n"
         << "set output " << quoted(file + ".png") << '\n'
         << "set datafile separator ','\n"
@@ -107,19 +106,20 @@ int run(const std::string& folder, const Output& output, const bunny::Options& o
   const bunny::Dense_scan source = bunny::read_scan(folder, "bun000.ply"),
                           target = bunny::read_scan(folder, "bun090.ply");
   std::cout
-      << "              vertices                 crude                   error                                     "
-         "      after ICP\n"
-      << "level              S     D     turn        x        y        z  degrees   length   search s  passes  "
-         "trihedra candidates  degrees steps\n";
+      << "              vertices                 crude                   error             seconds                 "
+         "             after ICP\n"
+      << "level              S     D     turn        x        y        z  degrees   length     search    whole  passes "
+         " trihedra candidates  degrees steps  status\n";
   std::vector<bunny::Registration> rows;
   // From the coarse level to the fine one, so that something is seen soon.
   for (std::size_t level = paper.size(); level-- > 0;) {
-    const auto s = bunny::simplify(source, CR::parameters::number_of_vertices(paper[level].s_vertices));
-    const auto d = bunny::simplify(target, CR::parameters::number_of_vertices(paper[level].d_vertices));
+    const auto s = bunny::prepare(source, CR::parameters::number_of_vertices(paper[level].s_vertices));
+    const auto d = bunny::prepare(target, CR::parameters::number_of_vertices(paper[level].d_vertices));
     rows.insert(rows.begin(), bunny::register_pair(source, s, target, d, folder, options));
     print(level, rows.front());
   }
-  std::cout << "\ndegrees: angle of the whole rotation that is left over (paper: of the turn about y alone)\n";
+  std::cout << "\ndegrees: angle of the whole rotation that is left over (paper: of the turn about y alone)\n"
+               "search, whole: seconds of the search for motions, and of register_scans() as a whole\n";
   if (!output.csv.empty()) write_csv(output.csv, rows);
   if (!output.plot.empty()) {
     write_plot(output.plot, output.csv);

@@ -10,27 +10,23 @@
 
 // What the peers of compare_with_peers have in common.
 
-#include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
-#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
-
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace benchmark_tools {
 
-using CGAL::Crude_registration::internal::Flat_sensor;
-using CGAL::Crude_registration::internal::Vector;
-
 struct Peer_scan
 {
-  std::vector<Vector> points;
-  Flat_sensor sensor;
-  double diagonal = 0; // of the points' box
+  std::vector<Eigen::Vector3d> points;
+  std::optional<Eigen::Vector3d> viewpoint, viewing_direction; // the sensor: one of them at most is known
+  double diagonal = 0;                                         // of the points' box
 
-  bool faces_away(const Vector& p, const Vector& normal) const
+  bool faces_away(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const
   {
-    return sensor.kind != Flat_sensor::UNKNOWN && sensor.towards(p).dot(normal) > 0;
+    if (viewpoint) return (p - *viewpoint).dot(normal) > 0;
+    return viewing_direction && viewing_direction->dot(normal) > 0;
   }
 };
 

@@ -29,7 +29,7 @@ Points::Ptr to_points(const Peer_scan& scan)
 {
   Points::Ptr points(new Points);
   points->reserve(scan.points.size());
-  for (const Vector& p : scan.points) {
+  for (const Eigen::Vector3d& p : scan.points) {
     pcl::PointNormal q;
     q.x = float(p.x());
     q.y = float(p.y());
