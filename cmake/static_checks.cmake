@@ -2,8 +2,8 @@
 # clang-tidy (the headers: test check_tidy_headers; all programs: target check_tidy). Each is there where its tool is.
 
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/*.h)
-file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.cpp
-     ${PROJECT_SOURCE_DIR}/benchmark/*.cpp ${PROJECT_SOURCE_DIR}/test/*.cpp)
+file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp
+     ${PROJECT_SOURCE_DIR}/examples/*.cpp ${PROJECT_SOURCE_DIR}/benchmark/*.cpp ${PROJECT_SOURCE_DIR}/test/*.cpp)
 
 # Every header is compiled alone, twice in a row, with all warnings as errors: by clang++ where it is there, two to three
 # times faster at this than g++, which meets all headers in the programs. One file carries the compile flags of all.
@@ -46,8 +46,11 @@ endforeach()
 add_custom_target(headers_alone DEPENDS ${header_stamps})
 # The benchmarks, which few builds build, and the command line program, which g++ compiles.
 set(program_stamps "")
-check_source(program_stamps crude_register ${PROJECT_SOURCE_DIR}/examples/Crude_registration/crude_register.cpp
-  "crude_register")
+file(GLOB app_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/apps/*/*.cpp)
+foreach(source IN LISTS app_sources)
+  string(MAKE_C_IDENTIFIER ${source} name)
+  check_source(program_stamps ${name} ${PROJECT_SOURCE_DIR}/${source} "${source}")
+endforeach()
 if(TARGET benchmarks)
   get_target_property(names benchmarks MANUALLY_ADDED_DEPENDENCIES)
   foreach(name IN LISTS names)
@@ -78,10 +81,11 @@ find_program(CRUDE_REGISTRATION_CLANG_FORMAT NAMES clang-format-14)
 mark_as_advanced(CRUDE_REGISTRATION_CLANG_FORMAT)
 set(absolute_headers ${headers})
 list(TRANSFORM absolute_headers PREPEND ${PROJECT_SOURCE_DIR}/include/)
+file(GLOB_RECURSE app_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.h)
 if(CRUDE_REGISTRATION_CLANG_FORMAT)
-  set(check_format ${CRUDE_REGISTRATION_CLANG_FORMAT} --dry-run --Werror ${absolute_headers} ${programs})
+  set(check_format ${CRUDE_REGISTRATION_CLANG_FORMAT} --dry-run --Werror ${absolute_headers} ${app_headers} ${programs})
   add_custom_target(check_format COMMAND ${check_format} VERBATIM)
-  add_custom_target(format COMMAND ${CRUDE_REGISTRATION_CLANG_FORMAT} -i ${absolute_headers} ${programs} VERBATIM)
+  add_custom_target(format COMMAND ${CRUDE_REGISTRATION_CLANG_FORMAT} -i ${absolute_headers} ${app_headers} ${programs} VERBATIM)
   if(CRUDE_REGISTRATION_WITH_TESTS)
     add_test(NAME check_format COMMAND ${check_format})
   endif()
@@ -111,7 +115,7 @@ if(CRUDE_REGISTRATION_CLANG_TIDY)
     add_custom_command(OUTPUT ${stamp}
       COMMAND ${tidy} ${program}
       COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
-      DEPENDS ${program} ${absolute_headers} ${PROJECT_SOURCE_DIR}/.clang-tidy VERBATIM
+      DEPENDS ${program} ${absolute_headers} ${app_headers} ${PROJECT_SOURCE_DIR}/.clang-tidy VERBATIM
       COMMENT "clang-tidy ${name}")
     list(APPEND stamps ${stamp})
   endforeach()

@@ -11,8 +11,8 @@ build=${CRUDE_REGISTRATION_BUILD:-build-fuzz}
 launcher=$(command -v ccache || true)
 cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$(command -v clang++-14 || command -v clang++)" \
   ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"} -DCRUDE_REGISTRATION_WITH_FUZZERS=ON \
-  -DCRUDE_REGISTRATION_WITH_TESTS=OFF -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF \
-  -DCRUDE_REGISTRATION_WITH_DOC=OFF
+  -DCRUDE_REGISTRATION_WITH_TESTS=OFF -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_APPS=OFF \
+  -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF -DCRUDE_REGISTRATION_WITH_DOC=OFF
 ninja -C "$build" fuzz_seeds fuzz_read_range_image fuzz_read_scan fuzz_register_meshes
 "$build/fuzz/fuzz_seeds" "$build/fuzz/seeds"
 exec test/fuzz/fuzz.sh "$build/fuzz" "$build/fuzz/seeds" "$@"

@@ -13,12 +13,13 @@ install_missing_packages() { # [FILE]: of packages that are wanted, too, where t
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     say "No apt-get on this system: nothing is installed"
     cat <<TXT
-Needed are a C++17 compiler, CMake (3.22 or later), CGAL (5.5.1 or later, with GMP and MPFR), Eigen (3.3 or later) and
-Boost (1.74 or later, with Program_options and the Unit Test Framework); Ninja, TBB and OpenMesh are optional.
+Needed are a C++17 compiler, CMake (3.22 or later), CGAL (5.5.1 or later, with GMP and MPFR), Eigen (3.3 or later),
+Boost (1.74 or later, with Program_options and the Unit Test Framework) and nlohmann-json (3.9 or later); Ninja, TBB and
+OpenMesh are optional.
   Debian, Ubuntu: $wanted
-  Fedora:         gcc-c++ cmake ninja-build CGAL-devel eigen3-devel boost-devel tbb-devel
-  Arch:           gcc cmake ninja cgal eigen boost onetbb
-  macOS (brew):   cmake ninja cgal eigen boost tbb
+  Fedora:         gcc-c++ cmake ninja-build CGAL-devel eigen3-devel boost-devel tbb-devel json-devel
+  Arch:           gcc cmake ninja cgal eigen boost onetbb nlohmann-json
+  macOS (brew):   cmake ninja cgal eigen boost tbb nlohmann-json
 TXT
     command -v cmake >/dev/null || exit 1
     return

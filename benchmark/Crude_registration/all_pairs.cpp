@@ -13,8 +13,8 @@
 
 #include "moved_scan.h"
 #include "result_tools.h"
-#include "write_file.h"
 
+#include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
 #include <CGAL/Crude_registration/register_scans.h>
 
@@ -198,7 +198,7 @@ int main(int argc, char** argv)
       answers[k].seconds = seconds_since(begin);
     });
     const double elapsed = seconds_since(start);
-    benchmark_tools::write_file(output, [&](std::ostream& out) { write(out, pairs, answers, index, scans); });
+    CR::write_file(output, [&](std::ostream& out) { write(out, pairs, answers, index, scans); });
 
     const auto registered = std::count_if(answers.begin(), answers.end(),
                                           [](const Answer& a) { return a.result.status() == CR::REGISTERED; });

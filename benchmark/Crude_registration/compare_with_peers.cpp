@@ -17,11 +17,11 @@
 #include "moved_scan.h"
 #include "reference_time.h"
 #include "result_tools.h"
-#include "write_file.h"
 #include "peers/Peer.h"
 #include "peers/open3d.h"
 #include "peers/pcl.h"
 
+#include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/sampling/estimate_sensor.h>
 #include <CGAL/Crude_registration/register_scans.h>
 
@@ -323,7 +323,7 @@ void print(const std::vector<Row>& rows, const std::vector<Method>& methods, dou
 void write_csv(const std::string& file, const std::vector<Row>& rows, const std::vector<Method>& methods,
                double reference)
 {
-  benchmark_tools::write_file(file, [&](std::ostream& out) {
+  CR::write_file(file, [&](std::ostream& out) {
     out << "source,target,overlap,method,found,right,degrees,centroid_error,seconds,reference_seconds,peak_bytes,"
            "own_bytes\n";
     for (const Row& r : rows)

@@ -13,8 +13,8 @@
 #include "plot_script.h"
 #include "reference_time.h"
 #include "result_tools.h"
-#include "write_file.h"
 
+#include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/register_scans.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
@@ -244,7 +244,7 @@ void print(const Row& row)
 
 void write_csv(const std::string& file, const std::vector<Row>& rows)
 {
-  benchmark_tools::write_file(file, [&](std::ostream& out) {
+  CR::write_file(file, [&](std::ostream& out) {
     out << "input,vertices,reference_seconds,prepare_seconds,prepare_r,input_bytes,peak_bytes,register_seconds,"
            "register_r,status,degrees\n";
     for (const Row& r : rows)
@@ -257,7 +257,7 @@ void write_csv(const std::string& file, const std::vector<Row>& rows)
 
 void write_plot(const std::string& file, const std::string& csv)
 {
-  benchmark_tools::write_file(file, [&](std::ostream& out) {
+  CR::write_file(file, [&](std::ostream& out) {
     const auto curve = [&](const char* kind, const char* column, const char* title) {
       out << quoted(csv) << " using (strcol(1) eq '" << kind << "' ? $2 : NaN):" << column
           << " skip 1 with linespoints title '" << title << "'";

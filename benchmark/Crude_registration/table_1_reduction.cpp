@@ -7,9 +7,8 @@
 
 // Table 1 of the paper: what simplification to the approximation error leaves of the scans.
 
-#include "write_file.h"
-
 #include <CGAL/Crude_registration/IO/read_scan.h>
+#include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
 #include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
 #include <CGAL/Crude_registration/internal/reduction/scan_frame.h>
@@ -123,7 +122,7 @@ void print(const Row& row)
 
 void write_csv(const std::vector<Row>& rows, const std::string& file, bool with_paper)
 {
-  benchmark_tools::write_file(file, [&](std::ostream& out) {
+  CR::write_file(file, [&](std::ostream& out) {
     out << std::setprecision(10)
         << "scan,samples,percent_smooth,sampling_distance,image_size,approximation_error,vertices,reduction,"
            "fast_vertices\n";

@@ -9,7 +9,8 @@
 
 #include "bunny_pairs.h"
 #include "command_line.h"
-#include "write_file.h"
+
+#include <CGAL/Crude_registration/IO/write_file.h>
 
 #include <boost/program_options.hpp>
 
@@ -114,7 +115,7 @@ void print_errors(const std::vector<bunny::Registration>& rows)
 
 void write_csv(const std::string& file, const std::vector<bunny::Registration>& rows)
 {
-  benchmark_tools::write_file(file, [&](std::ostream& out) {
+  CR::write_file(file, [&](std::ostream& out) {
     out << "images,s_vertices,d_vertices,status,passes,trihedra,candidates,search_seconds,seconds,score,iterations";
     for (const char* motion : {"true", "crude", "answer", "icp"})
       for (const char* column : {"turn", "x", "y", "z"}) out << ',' << motion << '_' << column;

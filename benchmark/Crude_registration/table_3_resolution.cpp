@@ -10,7 +10,8 @@
 #include "bunny_pairs.h"
 #include "command_line.h"
 #include "plot_script.h"
-#include "write_file.h"
+
+#include <CGAL/Crude_registration/IO/write_file.h>
 
 #include <boost/program_options.hpp>
 
@@ -65,7 +66,7 @@ void print(std::size_t level, const bunny::Registration& r)
 
 void write_csv(const std::string& file, const std::vector<bunny::Registration>& rows)
 {
-  benchmark_tools::write_file(file, [&](std::ostream& out) {
+  CR::write_file(file, [&](std::ostream& out) {
     out << "level,s_vertices,d_vertices,seconds,turn,x,y,z,degrees,length,icp_degrees,icp_length,icp_iterations,passes,"
            "trihedra,candidates,score,paper_s_vertices,paper_d_vertices,paper_seconds,whole_seconds,status\n";
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -84,7 +85,7 @@ void write_csv(const std::string& file, const std::vector<bunny::Registration>& 
 // Figure 12 with both curves, on a logarithmic axis as they are four orders of magnitude apart.
 void write_plot(const std::string& file, const std::string& csv)
 {
-  benchmark_tools::write_file(file, [&](std::ostream& out) {
+  CR::write_file(file, [&](std::ostream& out) {
     out << "set terminal pngcairo size 800,500\n"
         << "set output " << quoted(file + ".png") << '\n'
         << "set datafile separator ','\n"

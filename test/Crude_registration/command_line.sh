@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Tests of the command line program: command_line.sh PROGRAM FOLDER, a folder of its own to work in.
+# Tests of the command line program: command_line.sh PROGRAM FOLDER JSON_AT, a folder of its own to work in and the
+# program json_at, which reads JSON.
 set -u
 program=$1
 folder=$2
+json_at=$3
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder" || exit 1
@@ -41,6 +43,14 @@ rejects()
 says()
 {
   grep -qF -- "$1" out.txt || fail "'$1' is not in the output: $(cat out.txt)"
+}
+
+# holds POINTER VALUE: the last output is JSON, with this value at the place that the pointer names.
+holds()
+{
+  local value
+  value=$("$json_at" "$1" < out.txt) || fail "no JSON with $1: $(cat out.txt)"
+  [ "$value" = "$2" ] || fail "$1 is $value instead of $2"
 }
 
 # Help.
@@ -83,13 +93,55 @@ awk '{ for (i = 1; i <= 4; ++i) { d = $i - (i == NR); if (d < -0.01 || d > 0.01)
 
 expect 0 register $pair --json
 cp out.txt all_threads.json
-says '"status": "registered"'
-says '"target_from_source": ['
+holds /source '"scans/scan_0.ply"'
+holds /target '"scans/scan_1.ply"'
+holds /status '"registered"'
+holds /reason '""'
+holds /written '[]'
+for matrix in target_from_source:3:4 crude_target_from_source:3:4 covariance:6:6; do
+  IFS=: read -r name rows columns <<< "$matrix"
+  for ((row = 0; row < rows; ++row)); do
+    "$json_at" "/$name/$row" < out.txt | awk -F, -v n="$columns" 'NF != n { exit 1 } END { exit NR != 1 }' ||
+      fail "row $row of $name has not $columns numbers"
+  done
+done
+# The motion is the one that is written, to the last bit.
+for row in 0 1 2; do
+  json_row=$("$json_at" "/target_from_source/$row" < out.txt | tr -d '[]' | tr , ' ')
+  awk -v row=$row -v numbers="$json_row" '
+    NR == row + 1 { split(numbers, x, " "); for (i = 1; i <= 4; ++i) if (x[i] + 0 != $i + 0) exit 1 }
+  ' moved/motion.txt || fail "the JSON has another motion than motion.txt"
+done
+holds /statistics/0/stage '"reduce"'
 grep -q seconds out.txt && fail "there are times in the JSON"
 expect 0 register $pair --json --threads 1
 cmp -s out.txt all_threads.json || fail "the number of threads changes the answer"
-expect 0 register $pair --json --times
-says '"seconds"'
+expect 0 register $pair --json --times --poses scans/poses.txt --output timed
+for pointer in /statistics/0/seconds /preparation_seconds /search_seconds /error/rms_displacement; do
+  "$json_at" "$pointer" < out.txt | awk '!($1 >= 0) { exit 1 }' || fail "no number at $pointer"
+done
+"$json_at" /error/rotation_in_degrees < out.txt | awk '!($1 < 1) { exit 1 }' || fail "the error in the JSON is wrong"
+holds /written/2 '"timed/motion.txt"'
+
+expect 0 register $pair --method pairs --json
+cmp -s out.txt all_threads.json || fail "pairs is not the default method"
+expect 0 register $pair --f1 0 --f2 0.3 --json
+cmp -s out.txt all_threads.json || fail "0 and 0.3 are not the defaults of --f1 and --f2"
+
+# The method of the paper, on scans without lost samples: the simplification keeps what is at the border of a hole.
+expect 0 simulate --output whole --samples 150 --drop-out 0 --grazing-drop-out 0
+whole="whole/scan_0.ply whole/scan_1.ply"
+expect 0 register $whole --method trihedra --json --poses whole/poses.txt
+cp out.txt trihedra.json
+holds /status '"registered"'
+"$json_at" /error/rotation_in_degrees < out.txt | awk '!($1 < 1) { exit 1 }' ||
+  fail "the rotation by trihedra is wrong: $("$json_at" /error < out.txt)"
+holds /statistics/2/stage '"propose: trihedra"'
+expect 0 register $whole --method trihedra --f2 0.3 --json --poses whole/poses.txt
+cmp -s out.txt trihedra.json || fail "0.3 is not the default of --f2 with --method trihedra"
+rejects "--method" register $pair --method magic
+rejects "--f1" register $pair --method trihedra --f1 0.5 --f2 0.3
+rejects "--f1" register $pair --f1 0.3
 
 rejects "--f1" register $pair --f1 0.5 --f2 0.3
 rejects "--f1" register $pair --f1 nan
@@ -141,7 +193,11 @@ expect 0 info scans/scan_0.ply
 says "range image"
 says "150 x 150"
 expect 0 info scans/scan_0.ply --json
-says '"columns": 150'
+holds /scan '"scans/scan_0.ply"'
+holds /kind '"range image"'
+holds /columns 150
+holds /rows 150
+holds /sensor '"orthographic"'
 expect 0 info moved/target.ply
 says mesh
 expect 0 info plane_0.xyz --viewpoint -20,15,100

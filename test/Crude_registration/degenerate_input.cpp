@@ -279,6 +279,36 @@ BOOST_AUTO_TEST_CASE(meshes_registered)
   });
 }
 
+// A range image that CGAL reads as a mesh: points without faces.
+BOOST_AUTO_TEST_CASE(a_mesh_without_faces_is_refused_with_what_to_use)
+{
+  Image image(3, 3);
+  for (std::size_t i = 0; i < 9; ++i) image.set_sample(i % 3, i / 3, Point(double(i % 3), double(i / 3), 0));
+  std::stringstream file;
+  CR::write_range_image(file, image);
+  Mesh mesh;
+  BOOST_TEST(CGAL::IO::read_PLY(file, mesh));
+  BOOST_TEST(mesh.number_of_vertices() == 9u);
+  BOOST_TEST(mesh.number_of_faces() == 0u);
+
+  CR::Scan_file<Kernel> contents;
+  contents.kind = CR::Scan_file<Kernel>::MESH;
+  const auto says = [](const std::string& argument) {
+    return [argument](const std::invalid_argument& e) {
+      const std::string what = e.what();
+      BOOST_TEST_MESSAGE(what);
+      return what.rfind(argument + " has no faces: ", 0) == 0 && what.find("read_scan()") != std::string::npos;
+    };
+  };
+  for (const Mesh& m : {Mesh(), mesh}) {
+    BOOST_CHECK_EXCEPTION(Scan{m}, std::invalid_argument, says("Scan: mesh"));
+    BOOST_CHECK_EXCEPTION(CR::register_meshes(m, good_mesh()), std::invalid_argument, says("register_meshes: source"));
+    BOOST_CHECK_EXCEPTION(CR::register_meshes(good_mesh(), m), std::invalid_argument, says("register_meshes: target"));
+    contents.mesh = m;
+    BOOST_CHECK_EXCEPTION(Scan{contents}, std::invalid_argument, says("Scan: file"));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(meshes_refined)
 {
   const auto is_sound_refinement = [](const auto& refined) {

@@ -348,18 +348,18 @@ BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all)
     std::ifstream in(name);
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
-  using CR::internal::write_atomically;
-  BOOST_CHECK_THROW(write_atomically(name,
-                                     [](std::ostream& out) {
-                                       out << "half";
-                                       throw std::runtime_error("no more");
-                                     }),
+  using CR::write_file;
+  BOOST_CHECK_THROW(write_file(name,
+                               [](std::ostream& out) {
+                                 out << "half";
+                                 throw std::runtime_error("no more");
+                               }),
                     std::runtime_error);
   BOOST_TEST(contents() == "before");
-  BOOST_CHECK_THROW(write_atomically(name, [](std::ostream& out) { out.setstate(std::ios::badbit); }), CR::IO_error);
+  BOOST_CHECK_THROW(write_file(name, [](std::ostream& out) { out.setstate(std::ios::badbit); }), CR::IO_error);
   BOOST_TEST(contents() == "before");
   std::filesystem::permissions(name, std::filesystem::perms::owner_all);
-  write_atomically(name, [](std::ostream& out) { out << 0.1 << ' ' << 1234567; });
+  write_file(name, [](std::ostream& out) { out << 0.1 << ' ' << 1234567; });
   BOOST_TEST(contents() == "0.10000000000000001 1234567");
   BOOST_TEST((std::filesystem::status(name).permissions() == std::filesystem::perms::owner_all));
   BOOST_TEST(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
@@ -367,13 +367,13 @@ BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all)
   // a link stays one
   const std::filesystem::path link = folder.path() / "link";
   std::filesystem::create_symlink("result.txt", link);
-  write_atomically(link.string(), [](std::ostream& out) { out << "through"; });
+  write_file(link.string(), [](std::ostream& out) { out << "through"; });
   BOOST_TEST(std::filesystem::is_symlink(link));
   BOOST_TEST(contents() == "through");
 
   for (const std::string& wrong : {folder.path().string(), (folder.path() / "no" / "folder").string(), std::string()})
-    BOOST_CHECK_THROW(write_atomically(wrong, [](std::ostream&) {}), CR::IO_error);
-  BOOST_CHECK_NO_THROW(write_atomically("/dev/null", [](std::ostream& out) { out << "gone"; }));
+    BOOST_CHECK_THROW(write_file(wrong, [](std::ostream&) {}), CR::IO_error);
+  BOOST_CHECK_NO_THROW(write_file("/dev/null", [](std::ostream& out) { out << "gone"; }));
   BOOST_TEST(std::filesystem::is_character_file("/dev/null"));
 }
 

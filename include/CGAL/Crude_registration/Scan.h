@@ -220,7 +220,7 @@ public:
         prepare_image(file.image, np, name, control);
         break;
       case Scan_file<Kernel>::MESH:
-        prepare(internal::to_flat_mesh(file.mesh, parameters::default_values(), name, "it", control),
+        prepare(to_flat_mesh(file.mesh, parameters::default_values(), name, control),
                 internal::sensor_parameter(np, name), nullptr, np, name, control);
         break;
       case Scan_file<Kernel>::POINTS:
@@ -273,8 +273,8 @@ public:
   Scan(const FaceGraph& mesh, const NamedParameters& np, const Generator& generator, const std::string& name,
        internal::Run_control& control)
   {
-    prepare(internal::to_flat_mesh(mesh, np, name, "it", control), internal::sensor_parameter(np, name), nullptr, np,
-            generator, name, control);
+    prepare(to_flat_mesh(mesh, np, name, control), internal::sensor_parameter(np, name), nullptr, np, generator, name,
+            control);
   }
   /// \endcond
 
@@ -290,12 +290,24 @@ private:
     }
   }
 
+  // Readers of meshes pass over what is no face, and return what is left without a word.
+  template <class FaceGraph, class NamedParameters>
+  static internal::Flat_mesh to_flat_mesh(const FaceGraph& mesh, const NamedParameters& np, const std::string& name,
+                                          internal::Run_control& control)
+  {
+    internal::Flat_mesh flat = internal::to_flat_mesh(mesh, np, name, "it", control);
+    if (flat.faces.empty())
+      throw std::invalid_argument(
+          name + " has no faces: a PLY file with a range grid, or with points alone, has none " +
+          "where CGAL::IO reads it as a mesh; read the file with read_scan(), and make the " + "Scan of what it finds");
+    return flat;
+  }
+
   template <class FaceGraph, class NamedParameters>
   void prepare_mesh(const FaceGraph& mesh, const NamedParameters& np, const std::string& name,
                     internal::Run_control& control)
   {
-    prepare(internal::to_flat_mesh(mesh, np, name, "it", control), internal::sensor_parameter(np, name), nullptr, np,
-            name, control);
+    prepare(to_flat_mesh(mesh, np, name, control), internal::sensor_parameter(np, name), nullptr, np, name, control);
   }
 
   template <class NamedParameters>

@@ -14,9 +14,8 @@
 
 // Writes range images.
 
-#include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/Range_image.h>
-#include <CGAL/Crude_registration/IO/internal/atomic_file.h>
 
 #include <CGAL/number_utils.h>
 
@@ -93,7 +92,7 @@ void write_range_image(std::ostream& out, const Range_image<Kernel>& image)
 template <class Kernel>
 void write_range_image(const std::string& filename, const Range_image<Kernel>& image)
 {
-  internal::write_atomically(filename, [&](std::ostream& out) { write_range_image(out, image); });
+  write_file(filename, [&](std::ostream& out) { write_range_image(out, image); });
 }
 
 } // namespace Crude_registration

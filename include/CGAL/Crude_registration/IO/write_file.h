@@ -9,8 +9,8 @@
 //
 // Author(s)     : The Crude_registration authors
 
-#ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_ATOMIC_FILE_H
-#define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_ATOMIC_FILE_H
+#ifndef CGAL_CRUDE_REGISTRATION_IO_WRITE_FILE_H
+#define CGAL_CRUDE_REGISTRATION_IO_WRITE_FILE_H
 
 // Writes a file whole or not at all.
 
@@ -22,6 +22,7 @@
 #include <ios>
 #include <limits>
 #include <locale>
+#include <ostream>
 #include <string>
 #include <system_error>
 
@@ -44,12 +45,26 @@ inline std::filesystem::path new_file_beside(const std::filesystem::path& target
   throw IO_error(filename, "the file cannot be written: no new file can be made beside it");
 }
 
-// Writes a file whole or not at all: `write(std::ostream&)` writes to a temporary file in the same folder, which then
-// takes the place of the file. If `write` throws, or the disk is full, the file stays as it was. The stream is binary,
-// in the "C" locale, and writes doubles so that they are read back the same. What is no regular file (a pipe, a
-// terminal) is written directly.
+} // namespace internal
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief writes a file whole or not at all: an error leaves a file of that name as it was.
+
+What is written goes to a temporary file in the same folder, which then takes the place of the file, with its
+permissions; a symbolic link stays one. What is no regular file (a pipe, a terminal) is written directly. The stream is
+binary, in the "C" locale, and writes doubles so that they are read back the same.
+
+\tparam Write a function object that is called as `write(std::ostream&)`
+
+\param filename the name of the file
+\param write writes the contents; what it throws is passed on
+
+\throws IO_error if the file cannot be written, or `write` leaves the stream in a failed state.
+*/
 template <class Write>
-void write_atomically(const std::string& filename, Write write)
+void write_file(const std::string& filename, Write write)
 {
   namespace fs = std::filesystem;
   const auto write_to = [&](const fs::path& path) {
@@ -72,7 +87,7 @@ void write_atomically(const std::string& filename, Write write)
     return;
   }
 
-  const fs::path temporary = new_file_beside(target, filename);
+  const fs::path temporary = internal::new_file_beside(target, filename);
   try {
     write_to(temporary);
     if (fs::exists(status)) fs::permissions(temporary, status.permissions(), error);
@@ -84,8 +99,7 @@ void write_atomically(const std::string& filename, Write write)
   }
 }
 
-} // namespace internal
 } // namespace Crude_registration
 } // namespace CGAL
 
-#endif // CGAL_CRUDE_REGISTRATION_IO_INTERNAL_ATOMIC_FILE_H
+#endif // CGAL_CRUDE_REGISTRATION_IO_WRITE_FILE_H

@@ -1,0 +1,103 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CRUDE_REGISTER_OPTIONS_H
+#define CRUDE_REGISTER_OPTIONS_H
+
+// The arguments of a command.
+
+#include <CGAL/Crude_registration/named_parameters.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <boost/program_options.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iostream>
+#include <locale>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CR = CGAL::Crude_registration;
+namespace po = boost::program_options;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+
+// Wrong arguments on the command line.
+struct Usage_error : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+// The arguments of a command, or nothing if they asked for help, which is written.
+inline std::optional<po::variables_map> parse(const std::string& synopsis, const std::string& about,
+                                              const po::options_description& options,
+                                              const std::vector<std::string>& positional,
+                                              const std::vector<std::string>& arguments)
+{
+  po::options_description all;
+  all.add(options).add_options()("help,h", "");
+  po::positional_options_description places;
+  for (const std::string& name : positional) {
+    all.add_options()(name.c_str(), po::value<std::string>());
+    places.add(name.c_str(), 1);
+  }
+  po::variables_map map;
+  try {
+    po::store(po::command_line_parser(arguments).options(all).positional(places).run(), map);
+    if (map.count("help") > 0) {
+      std::cout << "usage: crude_register " << synopsis << "\n\n" << about << '\n' << options;
+      return std::nullopt;
+    }
+    po::notify(map);
+  } catch (const po::error& e) {
+    throw Usage_error(e.what());
+  }
+  for (const std::string& name : positional)
+    if (map.count(name) == 0) throw Usage_error("no " + name + " is given");
+  return map;
+}
+
+// The value of an option, if it is given.
+template <class T>
+std::optional<T> value_of(const po::variables_map& map, const char* option)
+{
+  if (map.count(option) == 0) return std::nullopt;
+  return map[option].as<T>();
+}
+
+inline std::optional<Point> viewpoint_of(const po::variables_map& map)
+{
+  const std::optional<std::string> text = value_of<std::string>(map, "viewpoint");
+  if (!text) return std::nullopt;
+  const Usage_error error("--viewpoint takes three numbers x,y,z, not '" + *text + "'");
+  std::istringstream in(*text);
+  in.imbue(std::locale::classic());
+  std::array<double, 3> c{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    char comma = ',';
+    if (i > 0) in >> comma;
+    if (comma != ',' || !(in >> c[i]) || !std::isfinite(c[i])) throw error;
+  }
+  if (in >> std::ws; !in.eof()) throw error;
+  return Point(c[0], c[1], c[2]);
+}
+
+// Calls f with the named parameters that say where the sensor was, if it is known.
+template <class Function>
+auto with_viewpoint(const std::optional<Point>& viewpoint, const Function& f)
+{
+  return viewpoint ? f(CR::parameters::viewpoint(*viewpoint)) : f(CR::parameters::default_values());
+}
+
+#endif // CRUDE_REGISTER_OPTIONS_H

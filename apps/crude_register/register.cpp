@@ -1,0 +1,299 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// register: finds the motion that maps one scan onto another.
+
+#include "commands.h"
+#include "files.h"
+#include "json.h"
+#include "options.h"
+
+#include <CGAL/Crude_registration/Registration_result.h>
+#include <CGAL/Crude_registration/Scan.h>
+#include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
+#include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
+#include <CGAL/Crude_registration/register_scans.h>
+
+#include <CGAL/Polygon_mesh_processing/transform.h>
+#include <CGAL/for_each.h>
+
+#include <Eigen/Geometry>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using Scan = CR::Scan<Kernel>;
+using Result = CR::Registration_result<Kernel>;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Side
+{
+  std::string file;
+  Scan_file contents;
+  std::unique_ptr<const Scan> scan;
+  double seconds = 0;
+  std::string interruption;   // the time budget's end, before there was a scan
+  std::exception_ptr failure; // of both sides', the first is reported
+};
+
+struct Answer
+{
+  Result result;
+  double preparation_seconds = 0;
+  double search_seconds = 0;
+};
+
+// The generator of candidates with the bounds that are given; it has defaults for the others.
+template <class Generator>
+Generator generator_with(const std::optional<double>& f1, const std::optional<double>& f2)
+{
+  namespace p = CR::parameters;
+  try {
+    if (f1 && f2) return Generator(p::minimum_extent(*f1).maximum_extent(*f2));
+    if (f1) return Generator(p::minimum_extent(*f1));
+    if (f2) return Generator(p::maximum_extent(*f2));
+    return Generator();
+  } catch (const std::invalid_argument& e) {
+    throw Usage_error(std::string("--f1, --f2: ") + e.what());
+  }
+}
+
+// Reads, prepares and registers the two scans.
+template <class Generator>
+Answer register_files(std::array<Side, 2>& sides, const Generator& generator, const std::optional<Point>& viewpoint,
+                      double time_budget)
+{
+  const auto left = [&, begin = Clock::now()] { // of the time budget
+    constexpr double shortest = 1e-9;
+    return (std::max)(shortest, time_budget - seconds_since(begin));
+  };
+  CGAL::for_each<CGAL::Parallel_if_available_tag>(sides, [&](Side& side) {
+    try {
+      side.contents = CR::read_scan<Kernel>(side.file);
+      const auto start = Clock::now();
+      const auto np = CR::parameters::time_budget(left()).candidates(generator);
+      side.scan = viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*viewpoint), side.file)
+                            : std::make_unique<const Scan>(side.contents, np, side.file);
+      side.seconds = seconds_since(start);
+    } catch (const CR::Preparation_interrupted& interrupted) {
+      side.interruption = interrupted.what();
+    } catch (...) {
+      side.failure = std::current_exception();
+    }
+    return true;
+  });
+  for (const Side& side : sides)
+    if (side.failure) std::rethrow_exception(side.failure);
+
+  Answer answer;
+  answer.preparation_seconds = sides[0].seconds + sides[1].seconds;
+  const auto start = Clock::now();
+  if (sides[0].scan && sides[1].scan) {
+    answer.result = CR::register_scans<CGAL::Parallel_if_available_tag>(
+        *sides[0].scan, *sides[1].scan, CR::parameters::time_budget(left()).candidates(generator));
+  } else {
+    Result::Parts parts;
+    parts.reason = sides[0].scan ? sides[1].interruption : sides[0].interruption;
+    answer.result = Result(std::move(parts));
+  }
+  answer.search_seconds = seconds_since(start);
+  return answer;
+}
+
+// What the truth says about an answer.
+struct Error
+{
+  double degrees;      // of rotation
+  double displacement; // RMS of the source's vertices
+};
+
+Eigen::Matrix3d rotation_of(const Transformation& motion)
+{
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) rotation(i, j) = motion.m(i, j);
+  return rotation;
+}
+
+Error error_of(const Transformation& answer, const Transformation& truth, const Mesh& source)
+{
+  double sum = 0;
+  for (const Point& p : source.points())
+    sum += CGAL::squared_distance(answer.transform(p), truth.transform(p)) / double(source.number_of_vertices());
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(rotation_of(answer) * rotation_of(truth).transpose()));
+  return {turn.angle() * 180 / CGAL_PI, std::sqrt(sum)};
+}
+
+// Writes both surfaces in the frame of the target, and the motion; the names of the files.
+std::vector<std::string> write_output(const std::string& folder, const Transformation& motion, Mesh source,
+                                      const Mesh& target)
+{
+  make_folder(folder);
+  CGAL::Polygon_mesh_processing::transform(motion, source);
+  const std::vector<std::string> files = {in_folder(folder, "source_moved.ply"), in_folder(folder, "target.ply"),
+                                          in_folder(folder, "motion.txt")};
+  write_mesh(files[0], source);
+  write_mesh(files[1], target);
+  CR::write_file(files[2], [&](std::ostream& out) {
+    write_rows(out, motion, "", "\n");
+    out << "0 0 0 1\n";
+  });
+  return files;
+}
+
+void print_json(const std::array<Side, 2>& sides, const Answer& answer, const std::optional<Error>& error,
+                const std::vector<std::string>& written, bool with_times)
+{
+  Json json = {{"source", sides[0].file}, {"target", sides[1].file}};
+  add_result(json, answer.result, with_times);
+  if (error) json["error"] = {{"rotation_in_degrees", error->degrees}, {"rms_displacement", error->displacement}};
+  if (with_times) {
+    json["preparation_seconds"] = answer.preparation_seconds;
+    json["search_seconds"] = answer.search_seconds;
+  }
+  json["written"] = written;
+  std::cout << to_text(json) << '\n';
+}
+
+void print_text(const std::array<Side, 2>& sides, const Answer& answer, const std::optional<Error>& error,
+                const std::vector<std::string>& written)
+{
+  const Result& result = answer.result;
+  std::cout << "source:     " << sides[0].file << ", " << number_of_samples(sides[0].contents) << " samples\n"
+            << "target:     " << sides[1].file << ", " << number_of_samples(sides[1].contents) << " samples\n"
+            << "status:     " << result.status() << '\n';
+  if (!result.reason().empty()) std::cout << "reason:     " << result.reason() << '\n';
+  std::cout << std::setprecision(4) << "confidence: " << result.confidence() << '\n';
+  for (const std::string& name : result.free_motions()) std::cout << "free:       " << name << '\n';
+  if (result.status() != CR::NOT_REGISTERED) {
+    std::cout << "overlap:    " << 100 * result.overlap() << " % of the source\n"
+              << "residual:   " << result.residual() << " sampling distances\n";
+    if (error)
+      std::cout << "error:      " << error->degrees << " degrees, " << error->displacement
+                << " RMS displacement of the source\n";
+    std::cout << "motion, from the frame of the source to that of the target:\n" << std::setprecision(12);
+    write_rows(std::cout, result.transformation(), "  ", "\n");
+    std::cout << "  0 0 0 1\n";
+  }
+  std::cout << std::setprecision(3) << "seconds:    " << answer.preparation_seconds << " preparation, "
+            << answer.search_seconds << " search\n";
+  for (const std::string& file : written) std::cout << "written:    " << file << '\n';
+}
+
+std::optional<po::variables_map> parse_register(const std::vector<std::string>& arguments)
+{
+  po::options_description options("options");
+  auto add = options.add_options();
+  add("method", po::value<std::string>()->default_value("pairs"),
+      "how motions are proposed: by pairs of oriented points of the reduced surfaces (pairs), or by spatial trihedra "
+      "of the simplified meshes, the method of the paper (trihedra)");
+  add("f1", po::value<double>(),
+      "what is matched, pairs or the axes of trihedra, is no shorter than this share of the scan's size M; 0 if not "
+      "given");
+  add("f2", po::value<double>(),
+      "and no longer than this share, about the least share of the scan that overlaps; 0.3 if not given");
+  add("output", po::value<std::string>(),
+      "folder for source_moved.ply, target.ply and motion.txt (the 4 x 4 matrix); "
+      "made if missing, written unless the scans are not registered");
+  add("viewpoint", po::value<std::string>(),
+      "x,y,z of the sensor, in each scan's own frame, for scans whose files do "
+      "not tell it");
+  add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
+  add("time-budget", po::value<double>(),
+      "seconds from the start after which preparation and search end, with the best so far");
+  add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
+  add("json", "print JSON, the same bytes for the same scans");
+  add("times", "add the times to the JSON");
+  return parse("register SOURCE TARGET [OPTION...]",
+               "Finds the rigid motion that maps SOURCE onto TARGET, and says whether it can be believed.\n"
+               "Exit code: 0 registered, 2 ambiguous, 3 not registered, 1 error.\n",
+               options, {"SOURCE", "TARGET"}, arguments);
+}
+
+} // namespace
+
+int run_register(const std::vector<std::string>& arguments)
+{
+  const auto given = parse_register(arguments);
+  if (!given) return 0;
+  const po::variables_map& map = *given;
+
+  const std::optional<Point> viewpoint = viewpoint_of(map);
+  const std::optional<int> threads = value_of<int>(map, "threads");
+  if (threads && *threads < 1) throw Usage_error("--threads takes a number above zero");
+#ifdef CGAL_LINKED_WITH_TBB
+  // Never destroyed: where the limit is lifted, TBB starts a thread, which fails where memory has run out.
+  [[maybe_unused]] static const tbb::global_control* limit = nullptr;
+  if (threads) limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(*threads));
+#endif
+  const double time_budget = value_of<double>(map, "time-budget").value_or((std::numeric_limits<double>::max)());
+  if (!(time_budget > 0 && std::isfinite(time_budget))) throw Usage_error("--time-budget takes seconds, above zero");
+  const std::optional<double> f1 = value_of<double>(map, "f1"), f2 = value_of<double>(map, "f2");
+  const std::string method = map["method"].as<std::string>();
+  const auto poses_file = value_of<std::string>(map, "poses"), output = value_of<std::string>(map, "output");
+  const auto poses = poses_file ? read_poses(*poses_file) : std::map<std::string, Transformation>();
+
+  std::array<Side, 2> sides;
+  sides[0].file = map["SOURCE"].as<std::string>();
+  sides[1].file = map["TARGET"].as<std::string>();
+  const Answer answer = [&] {
+    if (method == "pairs")
+      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), viewpoint, time_budget);
+    if (method == "trihedra")
+      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), viewpoint, time_budget);
+    throw Usage_error("--method takes pairs or trihedra, not '" + method + "'");
+  }();
+  const Result& result = answer.result;
+
+  std::optional<Error> error;
+  std::vector<std::string> written;
+  if (result.status() != CR::NOT_REGISTERED && (output || poses_file)) {
+    const Mesh source = mesh_of(sides[0].contents, viewpoint);
+    if (poses_file) {
+      const auto s = poses.find(base_name(sides[0].file)), t = poses.find(base_name(sides[1].file));
+      if (s == poses.end() || t == poses.end()) throw CR::IO_error(*poses_file, "a pose of the two scans is missing");
+      error = error_of(result.transformation(), t->second.inverse() * s->second, source);
+    }
+    if (output) written = write_output(*output, result.transformation(), source, mesh_of(sides[1].contents, viewpoint));
+  }
+
+  if (map.count("json") > 0) print_json(sides, answer, error, written, map.count("times") > 0);
+  else print_text(sides, answer, error, written);
+  switch (result.status()) {
+  case CR::REGISTERED:
+    return EXIT_REGISTERED;
+  case CR::AMBIGUOUS:
+    return EXIT_AMBIGUOUS;
+  case CR::NOT_REGISTERED:
+    break;
+  }
+  return EXIT_NOT_REGISTERED;
+}
