@@ -46,8 +46,8 @@ Result some_result()
   parts.transformation = CR::internal::to_aff_transformation<Kernel>(some_motion());
   parts.confidence = 0.1;
   parts.overlap = 1. / 3;
-  parts.covariance.setIdentity();
-  parts.covariance(0, 0) = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 6; ++i) parts.covariance[i][i] = 1;
+  parts.covariance[0][0] = std::numeric_limits<double>::infinity();
   parts.free_motions = {"sliding", "turning"};
   parts.runners_up.push_back({Transformation(CGAL::IDENTITY), 0.25});
   parts.statistics = {{"candidates", 123456789, 0.5}, {"scored", 12, 0.25}};

@@ -384,7 +384,9 @@ BOOST_AUTO_TEST_CASE(vertices_are_split_where_fans_meet)
   }
 }
 
-BOOST_AUTO_TEST_CASE(real_points_with_and_without_their_sensor)
+BOOST_AUTO_TEST_CASE(real_points_with_and_without_their_sensor,
+                     *boost::unit_test::label("real_scans") *
+                         boost::unit_test::precondition(generated::real_scans_are_there))
 {
   for (const auto& file : files(real_scans("uwa_trex"), ".txt")) {
     if (file.filename() == "poses.txt") continue;
