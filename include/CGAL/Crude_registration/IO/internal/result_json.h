@@ -56,11 +56,7 @@ void write_json(Json_writer& json, const Registration_result<Kernel>& result, bo
   write_json(json.key("target_from_source"), result.transformation());
   write_json(json.key("crude_target_from_source"), result.crude_transformation());
   json.key("covariance").begin_array();
-  for (int i = 0; i < 6; ++i) {
-    std::array<double, 6> row{};
-    for (int j = 0; j < 6; ++j) row[std::size_t(j)] = result.covariance()(i, j);
-    json.row(row);
-  }
+  for (const auto& row : result.covariance()) json.row(row);
   json.end_array();
   json.key("free_motions").begin_array();
   for (const std::string& name : result.free_motions()) json.value(name);
