@@ -3,7 +3,7 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
+#include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
 #include <CGAL/Crude_registration/internal/simulation/Statue.h>
 
 #include <algorithm>

@@ -14,6 +14,7 @@
 #include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
+#include <CGAL/Crude_registration/internal/mesh/flat_mesh_repair.h>
 #include <CGAL/Crude_registration/sampling/triangulate_points.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
