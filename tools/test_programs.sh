@@ -10,6 +10,7 @@ build_test_programs() { # [CTEST OPTION...]; sets `programs`
   local name
   programs=()
   for name in $(ctest --show-only -E "$not_programs" "$@" | sed -n 's/^ *Test *#[0-9]*: //p'); do
+    name=${name%_of_real_scans}
     [ ! -e "$root/test/Crude_registration/$name.cpp" ] || programs+=("test_$name")
   done
   [ ${#programs[@]} -gt 0 ] || { echo "no program of a test is meant by: $*" >&2; exit 1; }
