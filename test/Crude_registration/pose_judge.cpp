@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 using CR::internal::Agreement;
@@ -56,24 +57,26 @@ Pose_judge judge_of(const Reduced_scan& source, const Reduced_scan& target)
   return Pose_judge(source, target, CR::internal::Execution::SEQUENTIAL, CR::internal::to_the_end());
 }
 
-// The share of the probes of a scan, moved to the frame of a view, that are nearer to its sensor by `depth` than the
-// sample whose line of sight is the nearest: by all pairs.
-double share_before(const Reduced_scan& scan, const Rigid_motion& view_from_own, const View& view, double depth)
+// The share of the probes of a scan, moved to the frame of a view, that are nearer to its sensor by `depth` than all
+// samples whose lines of sight pass within `reach` of them, and, where `surrounded` says so, all around: by all pairs.
+double share_before(const Reduced_scan& scan, const Rigid_motion& view_from_own, const View& view, double depth,
+                    double reach, bool surrounded)
 {
   const std::size_t n = (std::min)(std::size_t(2500), scan.fine.probes.size());
   std::size_t before = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Vector p = view_from_own(scan.fine.surfels[std::size_t(scan.fine.probes[i])].position.cast<double>());
-    double largest = -1, range = 0;
+    double least = (std::numeric_limits<double>::max)();
+    Vector sum = Vector::Zero();
+    int count = 0;
     for (const Point& q : view.image.points()) {
-      const Vector v = to_vector(q);
-      if (const double cosine = v.dot(p) / (v.norm() * p.norm()); cosine > largest) {
-        largest = cosine;
-        range = v.norm();
-      }
+      const Vector v = to_vector(q), beside = v * (p.squaredNorm() / v.dot(p)) - p;
+      if (!(v.dot(p) > 0) || beside.norm() > reach) continue;
+      least = (std::min)(least, v.norm());
+      sum += beside;
+      ++count;
     }
-    const double beside = std::acos((std::min)(1., largest)) * p.norm();
-    before += beside < view.scan.spacing() && p.norm() < range - depth;
+    before += count > 0 && (!surrounded || sum.norm() < 0.25 * reach * count) && p.norm() < least - depth;
   }
   return double(before) / double(n);
 }
@@ -94,12 +97,14 @@ BOOST_AUTO_TEST_CASE(the_true_motion_scores_best)
   BOOST_TEST(judge.assess(to_pose(turned(wanted, 0, Vector(50, 40, 0)))).overlap == 0.f);
 }
 
+// What is counted is in front of all that was seen nearby, and all that is so by far is counted: free space is kept in
+// cells, so that it depends on the place by a cell or two what is near.
 BOOST_AUTO_TEST_CASE(violations_are_what_lies_in_front_of_either_scan)
 {
   const Reduced_scan &source = a().scan.reduced(), &target = b().scan.reduced();
   const Pose_judge judge = judge_of(source, target), back = judge_of(target, source);
   const Rigid_motion truth = true_motion(a(), b());
-  const double depth = 3 * (std::max)(a().scan.spacing(), b().scan.spacing());
+  const double spacing = (std::max)(a().scan.spacing(), b().scan.spacing());
   float largest = 0;
   // The sensors look along -z: the source comes nearer to the sensor of the target.
   for (const double shift : {0., 0.2, 0.5})
@@ -110,11 +115,17 @@ BOOST_AUTO_TEST_CASE(violations_are_what_lies_in_front_of_either_scan)
       motion.translation = centre - motion.rotation * centre + Vector(0, 0, shift);
       motion = motion * truth;
       const Agreement agreement = judge.assess(to_pose(own(motion)));
-      const double expected = share_before(source, motion * source.own_from_input.inverse(), b(), depth) +
-                              share_before(target, motion.inverse() * target.own_from_input.inverse(), a(), depth);
+      const auto expected = [&](double depth, double reach, bool surrounded) {
+        return share_before(source, motion * source.own_from_input.inverse(), b(), depth, reach, surrounded) +
+               share_before(target, motion.inverse() * target.own_from_input.inverse(), a(), depth, reach, surrounded);
+      };
+      const double most = expected(2.5 * spacing, 1.5 * spacing, false),
+                   least = expected(4 * spacing, 8 * spacing, true);
       BOOST_TEST_CONTEXT("shift " << shift << ", angle " << angle)
       {
-        BOOST_TEST(std::abs(double(agreement.violations) - expected) < 0.08, agreement.violations << ' ' << expected);
+        BOOST_TEST_MESSAGE(least << " <= " << agreement.violations << " <= " << most);
+        BOOST_TEST(double(agreement.violations) >= least - 0.02);
+        BOOST_TEST(double(agreement.violations) <= most + 0.02);
         // Seen from the other side it is the same.
         BOOST_TEST(std::abs(back.assess(to_pose(own(motion)).inverse()).violations - agreement.violations) < 1e-3f);
         BOOST_TEST(agreement.violations >= 0.f);

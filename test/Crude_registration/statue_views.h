@@ -37,18 +37,20 @@ struct View
   Vector centre; // of the statue, in the scan's frame
 };
 
-// The view of statue `seed` from the direction of an angle in degrees, by so many lines of sight a side. Made once.
-inline const View& view(unsigned seed, int degrees, double noise = 0.2, std::size_t samples = 330)
+// The view of statue `seed` from the direction of an angle in degrees, by so many lines of sight a side, some of which
+// are lost. Made once.
+inline const View& view(unsigned seed, int degrees, double noise = 0.2, std::size_t samples = 330,
+                        bool with_losses = true)
 {
   static std::map<unsigned, CR::Simulated_scene> scenes;
-  static std::map<std::tuple<unsigned, int, double, std::size_t>, View> views;
+  static std::map<std::tuple<unsigned, int, double, std::size_t, bool>, View> views;
   auto scene = scenes.find(seed);
   if (scene == scenes.end()) {
     Mesh statue;
     CR::make_statue(statue, 72, p::random_seed(seed));
     scene = scenes.emplace(std::piecewise_construct, std::tuple(seed), std::tuple<const Mesh&>(statue)).first;
   }
-  const auto key = std::tuple(seed, degrees, noise, samples);
+  const auto key = std::tuple(seed, degrees, noise, samples, with_losses);
   const auto found = views.find(key);
   if (found != views.end()) return found->second;
   const double angle = degrees * pi / 180;
@@ -56,7 +58,7 @@ inline const View& view(unsigned seed, int degrees, double noise = 0.2, std::siz
   auto camera = CR::Range_camera<Kernel>::framing(
       box, Kernel::Vector_3(-std::cos(angle), -std::sin(angle), degrees % 90 == 0 ? -0.2 : 0.1), samples, true);
   camera.noise = noise;
-  if (noise > 0) camera.drop_out = 0.02, camera.grazing_drop_out = 0.8;
+  if (noise > 0 && with_losses) camera.drop_out = 0.02, camera.grazing_drop_out = 0.8;
   camera.seed = std::uint64_t(1000 + degrees);
   const auto simulated = scene->second.range_image(camera);
   const Rigid_motion scene_from_scan = to_rigid_motion(simulated.scene_from_scan);
