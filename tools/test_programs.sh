@@ -4,12 +4,13 @@
 
 root=$PWD
 # The checks of the sources, of the manual and of other projects have no program that a tool could look into.
-not_programs='^(headers_alone|programs_compile|check_.*|manual_.*|consumer_.*|install_.*|short_fuzzing)$'
+not_programs='^(headers_alone|programs_compile|check_.*|manual_.*|consumers?_.*|layers|install_.*|short_fuzzing)$'
 
 build_test_programs() { # [CTEST OPTION...]; sets `programs`
   local name
   programs=()
   for name in $(ctest --show-only -E "$not_programs" "$@" | sed -n 's/^ *Test *#[0-9]*: //p'); do
+    name=${name%_of_real_scans}
     [ ! -e "$root/test/Crude_registration/$name.cpp" ] || programs+=("test_$name")
   done
   [ ${#programs[@]} -gt 0 ] || { echo "no program of a test is meant by: $*" >&2; exit 1; }

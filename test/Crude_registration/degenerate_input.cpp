@@ -314,7 +314,7 @@ BOOST_AUTO_TEST_CASE(meshes_refined)
   const auto is_sound_refinement = [](const auto& refined) {
     BOOST_TEST(std::isfinite(refined.residual));
     BOOST_TEST(std::isfinite(refined.overlap));
-    BOOST_TEST(!refined.covariance.hasNaN()); // infinite where nothing is determined
+    BOOST_TEST(!matrix_of(refined.covariance).hasNaN()); // infinite where nothing is determined
     BOOST_TEST(refined.iterations <= 1000);
     return is_rigid(refined.motion);
   };

@@ -224,7 +224,8 @@ BOOST_AUTO_TEST_CASE(simulated_scans)
   }
 }
 
-BOOST_AUTO_TEST_CASE(real_scans_of_a_moving_stripe)
+BOOST_AUTO_TEST_CASE(real_scans_of_a_moving_stripe, *boost::unit_test::label("real_scans") *
+                                                        boost::unit_test::precondition(generated::real_scans_are_there))
 {
   // Both scanners look along -z, the dragon's turned by about 28 degrees about y; their lines of sight rise by 3
   // degrees.
@@ -247,7 +248,8 @@ BOOST_AUTO_TEST_CASE(real_scans_of_a_moving_stripe)
   check("dragon_stand", Vector(-0.53, -0.05, -1), 2);
 }
 
-BOOST_AUTO_TEST_CASE(real_frames_of_a_depth_camera)
+BOOST_AUTO_TEST_CASE(real_frames_of_a_depth_camera, *boost::unit_test::label("real_scans") *
+                                                        boost::unit_test::precondition(generated::real_scans_are_there))
 {
   for (const auto& file : files(real_scans("slambook2_rgbd"), ".ply")) {
     Image image;

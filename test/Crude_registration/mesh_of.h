@@ -11,7 +11,7 @@
 // A flat mesh as a model of FaceGraph, and back.
 
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
-#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 
 template <class FaceGraph>
 FaceGraph mesh_of(const CGAL::Crude_registration::internal::Flat_mesh& flat)

@@ -133,13 +133,23 @@ inline double degrees(const Vector& a, const Vector& b)
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / pi;
 }
 
-// The folder of a set of real scans; empty, with a message, where there is none.
-inline std::filesystem::path real_scans(const std::string& set)
+// Whether there are real scans: the precondition of test cases that need them. These have the label `real_scans`, by
+// which ctest runs them on their own, and shows them as skipped where this says so.
+inline boost::test_tools::assertion_result real_scans_are_there(boost::unit_test::test_unit_id)
 {
   const char* data = std::getenv("CRUDE_REGISTRATION_DATA");
-  if (data != nullptr && std::filesystem::is_directory(std::filesystem::path(data) / set))
-    return std::filesystem::path(data) / set;
-  std::cout << "real scans '" << set << "': not tested, CRUDE_REGISTRATION_DATA is not set to their folder\n";
+  if (data != nullptr && std::filesystem::is_directory(data)) return true;
+  std::cout << "skipped: there are no real scans, CRUDE_REGISTRATION_DATA is not set to their folder\n";
+  return false;
+}
+
+// The folder of a set of real scans; empty, with a message, where this one is missing.
+// \pre There are real scans.
+inline std::filesystem::path real_scans(const std::string& set)
+{
+  const std::filesystem::path folder = std::filesystem::path(std::getenv("CRUDE_REGISTRATION_DATA")) / set;
+  if (std::filesystem::is_directory(folder)) return folder;
+  std::cout << "real scans '" << set << "': not tested, CRUDE_REGISTRATION_DATA has no such folder\n";
   return {};
 }
 

@@ -529,7 +529,8 @@ BOOST_AUTO_TEST_CASE(any_bytes_are_read_or_refused)
   }
 }
 
-BOOST_AUTO_TEST_CASE(real_range_images)
+BOOST_AUTO_TEST_CASE(real_range_images, *boost::unit_test::label("real_scans") *
+                                            boost::unit_test::precondition(generated::real_scans_are_there))
 {
   // the size of each, from the header: all samples are in the grid
   for (const std::string set : {"bunny", "dragon_stand", "slambook2_rgbd"}) {

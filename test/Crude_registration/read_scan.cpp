@@ -414,7 +414,8 @@ BOOST_AUTO_TEST_CASE(any_bytes_are_read_or_refused)
   }
 }
 
-BOOST_AUTO_TEST_CASE(real_points)
+BOOST_AUTO_TEST_CASE(real_points, *boost::unit_test::label("real_scans") *
+                                      boost::unit_test::precondition(generated::real_scans_are_there))
 {
   for (const auto& file : files(real_scans("uwa_trex"), ".txt")) {
     if (file.filename() == "poses.txt") continue;

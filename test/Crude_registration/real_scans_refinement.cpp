@@ -1,6 +1,8 @@
 #define BOOST_TEST_MODULE real_scans_refinement
 #include <boost/test/unit_test.hpp>
 
+#include "range_images.h"
+
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/motion/refine_motion.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
@@ -59,20 +61,18 @@ double degrees(double radians)
 
 // The four neighbouring pairs of the paper's Table 2, from starts off by what its crude registration leaves: 1.4
 // degrees and 2 mm in directions that differ from start to start.
-BOOST_AUTO_TEST_CASE(the_papers_bunny_pairs_from_crude_motions)
+BOOST_AUTO_TEST_CASE(the_papers_bunny_pairs_from_crude_motions,
+                     *boost::unit_test::label("real_scans") *
+                         boost::unit_test::precondition(generated::real_scans_are_there))
 {
-  const char* data = std::getenv("CRUDE_REGISTRATION_DATA");
-  if (data == nullptr || *data == '\0') {
-    std::cout << "no real scans (CRUDE_REGISTRATION_DATA is not set): nothing is tested here\n";
-    return;
-  }
-  const std::string folder = std::string(data) + "/bunny/";
+  const std::filesystem::path folder = generated::real_scans("bunny");
+  if (folder.empty()) return;
   const std::array<std::string, 4> names = {"bun000.ply", "bun090.ply", "bun180.ply", "bun270.ply"};
-  const auto truth = true_motions(folder + "pairs.csv");
+  const auto truth = true_motions((folder / "pairs.csv").string());
   std::array<Mesh, 4> meshes;
   for (std::size_t i = 0; i < 4; ++i) {
     CR::Range_image<Kernel> image;
-    CR::read_range_image(folder + names[i], image);
+    CR::read_range_image((folder / names[i]).string(), image);
     CR::triangulate_range_image(image, meshes[i]);
   }
 

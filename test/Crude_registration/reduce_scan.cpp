@@ -3,7 +3,7 @@
 
 #include "generated_surfaces.h"
 
-#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
+#include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
 #include <CGAL/Crude_registration/internal/simulation/Statue.h>
 
 #include <algorithm>
@@ -309,11 +309,11 @@ BOOST_AUTO_TEST_CASE(curvatures_of_known_surfaces)
 
   // z = (x^2 - y^2) / 4: curvatures of about 1/2, of opposite signs.
   const Reduced_scan saddle = reduce_scan(generated::grid(120, 120,
-                                                            [](double u, double v) {
-                                                              const double x = u - 0.5, y = v - 0.5;
-                                                              return Vector(x, y, (x * x - y * y) / 4);
-                                                            }),
-                                            no_sensor);
+                                                          [](double u, double v) {
+                                                            const double x = u - 0.5, y = v - 0.5;
+                                                            return Vector(x, y, (x * x - y * y) / 4);
+                                                          }),
+                                          no_sensor);
   BOOST_TEST(std::abs(minimal(saddle) + 0.5) < 0.06);
   BOOST_TEST(std::abs(maximal(saddle) - 0.5) < 0.06);
 

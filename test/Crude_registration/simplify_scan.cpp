@@ -8,6 +8,8 @@
 #define BOOST_TEST_MODULE simplify_scan
 #include <boost/test/unit_test.hpp>
 
+#include "range_images.h"
+
 #include "generated_surfaces.h"
 #include "mesh_of.h"
 #include "wrong_use.h"
@@ -193,17 +195,16 @@ BOOST_AUTO_TEST_CASE(wrong_use_is_named)
 }
 
 // Table 1 of the paper: 400 vertices on average, the four scans simplified to the approximation error.
-BOOST_AUTO_TEST_CASE(real_scans_are_left_with_the_papers_number_of_vertices)
+BOOST_AUTO_TEST_CASE(real_scans_are_left_with_the_papers_number_of_vertices,
+                     *boost::unit_test::label("real_scans") *
+                         boost::unit_test::precondition(generated::real_scans_are_there))
 {
-  const char* data = std::getenv("CRUDE_REGISTRATION_DATA");
-  if (data == nullptr || *data == '\0') {
-    std::cout << "no real scans (CRUDE_REGISTRATION_DATA is not set): nothing is tested here\n";
-    return;
-  }
+  const std::filesystem::path folder = generated::real_scans("bunny");
+  if (folder.empty()) return;
   double sum = 0;
   for (const std::string name : {"bun000", "bun090", "bun180", "bun270"}) {
     CR::Range_image<Kernel> image;
-    CR::read_range_image(std::string(data) + "/bunny/" + name + ".ply", image);
+    CR::read_range_image((folder / (name + ".ply")).string(), image);
     Mesh mesh;
     CR::triangulate_range_image(image, mesh);
     auto types = mesh.add_property_map<Mesh::Vertex_index, CR::Surface_type>("v:type").first;

@@ -14,6 +14,7 @@
 #include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
+#include <CGAL/Crude_registration/internal/mesh/flat_mesh_repair.h>
 #include <CGAL/Crude_registration/sampling/triangulate_points.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
@@ -384,7 +385,9 @@ BOOST_AUTO_TEST_CASE(vertices_are_split_where_fans_meet)
   }
 }
 
-BOOST_AUTO_TEST_CASE(real_points_with_and_without_their_sensor)
+BOOST_AUTO_TEST_CASE(real_points_with_and_without_their_sensor,
+                     *boost::unit_test::label("real_scans") *
+                         boost::unit_test::precondition(generated::real_scans_are_there))
 {
   for (const auto& file : files(real_scans("uwa_trex"), ".txt")) {
     if (file.filename() == "poses.txt") continue;

@@ -374,7 +374,8 @@ BOOST_AUTO_TEST_CASE(wrong_ratios_are_refused)
                           std::invalid_argument, names("triangulate_range_image: maximum_edge_ratio"));
 }
 
-BOOST_AUTO_TEST_CASE(real_range_images)
+BOOST_AUTO_TEST_CASE(real_range_images, *boost::unit_test::label("real_scans") *
+                                            boost::unit_test::precondition(generated::real_scans_are_there))
 {
   for (const std::string set : {"bunny", "dragon_stand", "slambook2_rgbd"}) {
     for (const auto& file : files(real_scans(set), ".ply")) {

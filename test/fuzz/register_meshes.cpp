@@ -3,6 +3,9 @@
 
 #include "Mesh_bytes.h"
 
+#include <CGAL/Crude_registration/internal/matching/Oriented_pair_search.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
 #include <CGAL/Crude_registration/register_scans.h>
 
 #include <CGAL/Surface_mesh.h>
@@ -11,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 
 namespace CR = CGAL::Crude_registration;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -41,6 +45,14 @@ bool is_rigid(const CGAL::Aff_transformation_3<Kernel>& transformation)
          std::abs(m.rotation.determinant() - 1) < 1e-9;
 }
 
+bool has_nan(const CR::Registration_result<Kernel>::Covariance& covariance)
+{
+  for (const auto& row : covariance)
+    for (const double number : row)
+      if (std::isnan(number)) return true;
+  return false;
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -53,22 +65,26 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   few.coarse_surfels = 60;
   const auto prepared = [&](const Mesh& mesh) {
     return CR::internal::reduce_scan(CR::internal::to_flat_mesh(mesh, CR::parameters::default_values(), "", ""),
-                                      CR::internal::Flat_sensor(), few);
+                                     CR::internal::Flat_sensor(), few);
   };
   const CR::internal::Reduced_scan source = prepared(a), target = prepared(b);
   if (source.number_of_samples == 0 || target.number_of_samples == 0) return 0;
-  CR::internal::Search_parameters short_search;
-  for (CR::internal::Search_round& round : short_search.rounds) {
+  CR::internal::Oriented_pair_parameters short_search;
+  for (CR::internal::Oriented_pair_round& round : short_search.rounds) {
     round.looks /= 100;
     round.kept = 8;
     round.judged = 3;
   }
+  constexpr auto one_thread = CR::internal::Execution::SEQUENTIAL;
+  const auto candidates = [&](const CR::internal::Reduced_scan& s, const CR::internal::Reduced_scan& t) {
+    return std::make_unique<CR::internal::Oriented_pair_search>(s, t, short_search, one_thread);
+  };
   CR::internal::Run_control to_the_end;
-  const auto result =
-      CR::internal::to_result<Kernel>(CR::internal::register_prepared_scans(source, target, short_search, to_the_end));
+  const auto result = CR::internal::to_result<Kernel>(
+      CR::internal::register_reduced_scans(source, target, candidates, one_thread, to_the_end));
   const bool is_sound = is_rigid(result.transformation()) && is_rigid(result.crude_transformation()) &&
                         result.confidence() >= 0 && result.confidence() <= 1 && std::isfinite(result.overlap()) &&
-                        std::isfinite(result.residual()) && !result.covariance().hasNaN() &&
+                        std::isfinite(result.residual()) && !has_nan(result.covariance()) &&
                         (result.status() == CR::REGISTERED) == result.reason().empty();
   if (!is_sound) std::abort();
   return 0;

@@ -149,7 +149,8 @@ public:
   /// target's frame, and the displacement in the unit of its coordinates.
   const Covariance& covariance() const { return m_parts.covariance; }
 
-  /// The names of the motions that the overlap leaves free, such as a turn about an axis.
+  /// The names of the motions that the overlap leaves free, such as a turn about an axis; places and directions are in
+  /// the frame of the target.
   const std::vector<std::string>& free_motions() const { return m_parts.free_motions; }
 
   /// The best motions that are distinct from transformation() and from each other, best first.

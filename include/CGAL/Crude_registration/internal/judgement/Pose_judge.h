@@ -65,8 +65,9 @@ public:
   }
 
   // A pose after refinement on the fine surfels.
-  Judged_pose judged(Pose pose) const
+  Judged_pose judged(const Pose& proposed) const
   {
+    Pose pose = proposed;
     const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
     // The first steps are the longest, and fewer probes tell them.
     const Probes some(m_source.fine, 0, 800);
@@ -74,7 +75,7 @@ public:
       if (refine_step(some, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
     for (float reach : {1.25f, 0.75f})
       if (refine_step(m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
-    return {pose, pose, assess(pose)};
+    return {pose, proposed, assess(pose)};
   }
 
   // Twice what any wrong pose was seen to reach, and far ahead of every other pose.

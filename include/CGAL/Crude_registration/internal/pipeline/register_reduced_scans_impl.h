@@ -119,8 +119,9 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   const double radius = 0.25 * source.extent;
   std::vector<Vector_6> free =
       find_free_motions(judge, own, refinement.covariance, own.translation, radius, double(source.coarse.spacing));
-  for (Vector_6& m : free) m = target_to_input * m;
-  const Free_motions named = name_free_motions(free, outcome.target_frame.inverse()(own.translation), radius);
+  for (Vector_6& m : free) m = to_input * m;
+  const Vector centre = outcome.target_frame.inverse()(own.translation);
+  const Free_motions named = name_free_motions(free, outcome.is_swapped ? outcome.motion(centre) : centre, radius);
   const Fit fit = {double((std::min)(source.fine.surfels.size(), target.fine.surfels.size())), outcome.residual,
                    refinement.residual / (std::max)(noise(source.fine), noise(target.fine)),
                    refinement.free_motions.size()};

@@ -1,0 +1,334 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What an answer says of its own certainty, against the truth: covariance, free motions, overlap, noise.
+
+#define BOOST_TEST_MODULE certainty
+#include <boost/test/unit_test.hpp>
+
+#include "statue_views.h"
+
+#include <CGAL/Crude_registration/internal/motion/twist.h>
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+using generated::Random;
+using Vector_6 = CR::internal::Vector_6;
+
+namespace {
+
+// Views of one statue with a noise of their own each time, and that are of different sizes, so that the pipeline turns
+// round one of the orders.
+struct Noisy_views
+{
+  Noisy_views()
+  {
+    Mesh statue;
+    CR::make_statue(statue, 72, p::random_seed(0));
+    const CR::Simulated_scene scene(statue);
+    for (int i = 0; i < trials; ++i) {
+      sources.push_back(taken(scene, 0, 150, std::uint64_t(2 * i + 1)));
+      targets.push_back(taken(scene, 40, 180, std::uint64_t(2 * i + 2)));
+    }
+  }
+
+  View taken(const CR::Simulated_scene& scene, int degrees, std::size_t samples, std::uint64_t seed) const
+  {
+    const double angle = degrees * pi / 180;
+    auto camera =
+        CR::Range_camera<Kernel>::framing(CGAL::Bbox_3(-0.85, -0.85, -1, 0.85, 0.85, 1),
+                                          Kernel::Vector_3(-std::cos(angle), -std::sin(angle), -0.2), samples, true);
+    camera.noise = 0.2;
+    camera.seed = seed;
+    const auto simulated = scene.range_image(camera);
+    const Rigid_motion scene_from_scan = to_rigid_motion(simulated.scene_from_scan);
+    return {simulated.image, scene_from_scan, Scan(simulated.image), scene_from_scan.inverse()(Vector::Zero())};
+  }
+
+  static constexpr int trials = 24;
+  std::vector<View> sources, targets;
+};
+
+// The small motion (w, v), x -> x + w x x + v, that a motion near the identity is.
+Vector_6 twist_of(const Rigid_motion& m)
+{
+  const Eigen::AngleAxisd turn(m.rotation);
+  Vector_6 t;
+  t << turn.angle() * turn.axis(), m.translation;
+  return t;
+}
+
+struct Scatter
+{
+  double about_mean;     // the mean of chi square per degree of freedom: of what the noise alone makes
+  double by_axis[6];     // the ratio of variances along the axes of the mean covariance
+  double shift, degrees; // the mean error, in sampling distances in the middle of the scan and as an angle
+};
+
+Scatter scatter(const std::vector<View>& sources, const std::vector<View>& targets)
+{
+  std::vector<Vector_6> errors;
+  std::vector<Matrix_6> covariances;
+  Matrix_6 mean_covariance = Matrix_6::Zero();
+  Vector_6 mean = Vector_6::Zero();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const Result result = CR::register_scans(sources[i].scan, targets[i].scan);
+    check_right(result, sources[i], targets[i]);
+    errors.push_back(
+        twist_of(to_rigid_motion(result.transformation()) * true_motion(sources[i], targets[i]).inverse()));
+    covariances.push_back(covariance_of(result));
+    mean += errors.back() / double(sources.size());
+    mean_covariance += covariances.back() / double(sources.size());
+  }
+  Scatter s{};
+  const double n = double(errors.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const Eigen::LDLT<Matrix_6> solver(covariances[i]);
+    const Vector_6 d = errors[i] - mean;
+    s.about_mean += d.dot(solver.solve(d)) / (6 * (n - 1));
+  }
+  const Vector middle = true_motion(sources[0], targets[0])(sources[0].centre);
+  s.shift = (mean.tail<3>() + mean.head<3>().cross(middle)).norm() / sources[0].scan.spacing();
+  s.degrees = mean.head<3>().norm() * 180 / pi;
+  const Eigen::LLT<Matrix_6> root(mean_covariance);
+  for (int k = 0; k < 6; ++k)
+    for (const Vector_6& e : errors) {
+      const Vector_6 white = root.matrixL().solve(Vector_6(e - mean));
+      s.by_axis[k] += white[k] * white[k] / (n - 1);
+    }
+  return s;
+}
+
+// The numbers in brackets after a word: of `free_motions`.
+Vector numbers_after(const std::string& text, const std::string& word)
+{
+  const std::size_t at = text.find(word + " (");
+  BOOST_TEST_REQUIRE((at != std::string::npos), text);
+  std::istringstream in(text.substr(at + word.size() + 2));
+  Vector v;
+  in >> v.x() >> v.y() >> v.z();
+  BOOST_TEST_REQUIRE(bool(in), text);
+  return v;
+}
+
+double angle_of_lines(const Vector& a, const Vector& b)
+{
+  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * 180 / pi;
+}
+
+// A cylinder of radius 1 about the z axis, and its extent along it.
+Flat_mesh cylinder(int around, int rows, double height, unsigned seed)
+{
+  return generated::grid(
+      around, rows, [&](double u, double v) { return Vector(std::cos(2 * pi * u), std::sin(2 * pi * u), height * v); },
+      0.25, true, false, seed);
+}
+
+} // namespace
+
+// The covariance is that of the noise: the mean of chi square per degree of freedom about the mean of n runs is 1 with
+// a standard deviation of sqrt(2 / (6 (n - 1))), and the ratio of variances along one axis 1 with sqrt(2 / (n - 1)).
+// What all runs have in common, as they see the same surface by the same lines of sight, is a part of a sampling
+// distance.
+BOOST_AUTO_TEST_CASE(the_covariance_is_that_of_repeated_scans_in_either_order)
+{
+  const Noisy_views views;
+  BOOST_TEST(views.sources[0].scan.reduced().coarse.surfels.size() !=
+             views.targets[0].scan.reduced().coarse.surfels.size());
+  for (const auto& [sources, targets] :
+       {std::pair(&views.sources, &views.targets), std::pair(&views.targets, &views.sources)}) {
+    const Scatter s = scatter(*sources, *targets);
+    std::ostringstream axes;
+    for (const double ratio : s.by_axis) axes << ' ' << ratio;
+    BOOST_TEST_MESSAGE("chi square per degree of freedom: " << s.about_mean << "; along the axes:" << axes.str()
+                                                            << "; mean error: " << s.shift << " sampling distances, "
+                                                            << s.degrees << " degrees");
+    constexpr double deviations = 4, runs = Noisy_views::trials - 1;
+    BOOST_TEST(std::abs(s.about_mean - 1) < deviations * std::sqrt(2 / (6 * runs)));
+    for (const double ratio : s.by_axis) BOOST_TEST(std::abs(ratio - 1) < deviations * std::sqrt(2 / runs));
+    BOOST_TEST(s.shift < 0.25);
+    BOOST_TEST(s.degrees < 0.25);
+  }
+}
+
+// The covariance in the frame of the target, wherever that is, and for the inverse of the motion.
+BOOST_AUTO_TEST_CASE(the_covariance_goes_with_the_frames)
+{
+  const View &a = view(0, 0), &b = view(0, 45, 0.2, 250);
+  const Result there = CR::register_scans(a.scan, b.scan), back = CR::register_scans(b.scan, a.scan);
+  // exp(x) there = there exp(Ad(there^-1) x), whose inverse has the deviation of `back` but for its sign.
+  const Matrix_6 adjoint = CR::internal::adjoint(to_rigid_motion(back.transformation()));
+  const Matrix_6 expected = adjoint * covariance_of(there) * adjoint.transpose();
+  BOOST_TEST((covariance_of(back) - expected).norm() < 1e-9 * expected.norm());
+  // The positive eigenvalues of a covariance.
+  BOOST_TEST(Eigen::SelfAdjointEigenSolver<Matrix_6>(covariance_of(there)).eigenvalues()[0] > 0);
+
+  Random random(5);
+  const Rigid_motion f = random.motion(3), g = random.motion(3);
+  const Result moved_result = CR::register_scans(Scan(moved(a.image, f)), Scan(moved(b.image, g)));
+  const Matrix_6 frame = CR::internal::adjoint(g), moved_expected = frame * covariance_of(there) * frame.transpose();
+  // Rounding takes some samples to other cells.
+  BOOST_TEST((covariance_of(moved_result) - moved_expected).norm() < 0.1 * moved_expected.norm());
+}
+
+// A cylinder turns about its axis and slides along it: in the frame of the target, in either order.
+BOOST_AUTO_TEST_CASE(free_axes_by_direction)
+{
+  Random random(11);
+  for (const bool source_is_larger : {false, true}) {
+    const Rigid_motion f = random.motion(2), g = random.motion(2);
+    const Flat_mesh small = cylinder(120, 60, 2.2, 1), large = cylinder(200, 90, 3, 2);
+    const Scan source(mesh_of(generated::moved(source_is_larger ? large : small, f))),
+        target(mesh_of(generated::moved(source_is_larger ? small : large, g)));
+    const Result result = CR::register_scans(source, target);
+    check_sound(result);
+    BOOST_TEST(result.status() == CR::AMBIGUOUS);
+    BOOST_TEST_REQUIRE(result.free_motions().size() == 2u);
+    const Vector axis = g.rotation.col(2);
+    bool turns = false, slides = false;
+    for (const std::string& name : result.free_motions()) {
+      if (name.find("rotation about") == 0) {
+        turns = true;
+        BOOST_TEST(angle_of_lines(numbers_after(name, "about"), axis) < 3, name);
+        const Vector away = numbers_after(name, "through") - g.translation;
+        BOOST_TEST((away - away.dot(axis) * axis).norm() < 0.05, name);
+      } else if (name.find("translation along") == 0) {
+        slides = true;
+        BOOST_TEST(angle_of_lines(numbers_after(name, "along"), axis) < 3, name);
+      }
+    }
+    BOOST_TEST(turns);
+    BOOST_TEST(slides);
+    // The covariance knows, too: its most uncertain motions keep the axis.
+    const Eigen::SelfAdjointEigenSolver<Matrix_6> eigen(covariance_of(result));
+    const Vector_6 most = eigen.eigenvectors().col(5);
+    const Vector of_centre = most.tail<3>() + most.head<3>().cross(g.translation);
+    if (most.head<3>().norm() > 0.1) BOOST_TEST(angle_of_lines(most.head<3>(), axis) < 3);
+    if (of_centre.norm() > 0.1) BOOST_TEST(angle_of_lines(of_centre, axis) < 3);
+  }
+}
+
+namespace {
+
+// The share of the source's area that has the surface of the target within a distance, facing the same way: face by
+// face, with the search tree of CGAL.
+double true_overlap(const Mesh& source, const Rigid_motion& motion, const Mesh& target, double distance)
+{
+  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(faces(target).begin(), faces(target).end(), target);
+  const auto cross = [](const Mesh& mesh, Mesh::Face_index f, Vector& middle) -> Vector {
+    Vector v[3];
+    int i = 0;
+    for (const auto w : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) v[i++] = to_vector(mesh.point(w));
+    middle = (v[0] + v[1] + v[2]) / 3;
+    return (v[1] - v[0]).cross(v[2] - v[0]);
+  };
+  double near = 0, all = 0;
+  for (const auto f : source.faces()) {
+    Vector middle, ignored;
+    const Vector normal = cross(source, f, middle);
+    all += normal.norm();
+    const Vector q = motion(middle);
+    const auto closest = tree.closest_point_and_primitive(Point(q.x(), q.y(), q.z()));
+    const Vector there = cross(target, closest.second, ignored);
+    if ((to_vector(closest.first) - q).norm() < distance &&
+        (motion.rotation * normal).dot(there) > 0.7 * normal.norm() * there.norm())
+      near += normal.norm();
+  }
+  return near / all;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(overlap_is_that_of_the_surfaces)
+{
+  for (const int b : {45, 90, 320}) {
+    // Without noise under the true motion, and as it was found in scans with noise.
+    const View &source = view(0, 0, 0, 200), &target = view(0, b, 0, 200);
+    const Mesh s = mesh_of(source.image), t = mesh_of(target.image);
+    const Rigid_motion truth = true_motion(source, target);
+    const double distance = double((std::max)(source.scan.reduced().fine.spacing, target.scan.reduced().fine.spacing));
+    const double forth = true_overlap(s, truth, t, distance), back = true_overlap(t, truth.inverse(), s, distance);
+    BOOST_TEST_CONTEXT("0 to " << b << ": " << forth << ", " << back)
+    {
+      for (const double noise : {0., 0.2}) {
+        const View &a = view(0, 0, noise, 200), &c = view(0, b, noise, 200);
+        const Result there = CR::register_scans(a.scan, c.scan), again = CR::register_scans(c.scan, a.scan);
+        BOOST_TEST(there.status() == CR::REGISTERED);
+        BOOST_TEST(std::abs(there.overlap() - forth) < 0.03, there.overlap());
+        BOOST_TEST(std::abs(again.overlap() - back) < 0.03, again.overlap());
+      }
+    }
+  }
+}
+
+// A roof of known noise, seen from above by parallel lines of sight.
+BOOST_AUTO_TEST_CASE(noise_of_a_roof)
+{
+  Mesh roof;
+  const auto ridge_1 = roof.add_vertex(Point(0, -2, 0)), ridge_2 = roof.add_vertex(Point(0, 2, 0)),
+             a = roof.add_vertex(Point(-2, -2, -1)), b = roof.add_vertex(Point(-2, 2, -1)),
+             c = roof.add_vertex(Point(2, -2, -1)), d = roof.add_vertex(Point(2, 2, -1));
+  roof.add_face(a, ridge_1, ridge_2);
+  roof.add_face(a, ridge_2, b);
+  roof.add_face(ridge_1, c, d);
+  roof.add_face(ridge_1, d, ridge_2);
+  const double cosine = 1 / std::sqrt(1.25); // of the normals and the lines of sight
+  std::vector<double> measured;
+  for (const double noise : {0.1, 0.2, 0.4}) {
+    auto camera = CR::Range_camera<Kernel>::framing(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1), Kernel::Vector_3(0, 0, -1), 250);
+    camera.noise = noise;
+    camera.seed = 3;
+    const auto simulated = CR::simulate_range_image(roof, camera);
+    const Scan scan(simulated.image);
+    const CR::internal::Reduced_scan& reduced = scan.reduced();
+    const Rigid_motion scene_from_own = to_rigid_motion(simulated.scene_from_scan) * reduced.own_from_input.inverse();
+    const double sigma = noise * camera.spacing * cosine;
+    for (const CR::internal::Surfel_level* level : {&reduced.coarse, &reduced.fine}) {
+      // A surfel is the mean of its samples, each of them with the noise of the camera: (w h)^2 has the mean w sigma^2.
+      double squares = 0, samples = 0, squared_weights = 0, number = 0;
+      for (std::size_t i = 0; i < level->surfels.size(); ++i) {
+        const Vector p = scene_from_own(level->surfels[i].position.cast<double>());
+        if (std::abs(p.x()) < 2 * double(level->spacing)) continue; // at the ridge
+        const double w = double(level->weights[i]), height = cosine * (p.z() + std::abs(p.x()) / 2);
+        squares += w * w * height * height;
+        samples += w;
+        squared_weights += w * w;
+        ++number;
+      }
+      const double variance = squares / samples / (sigma * sigma), n = samples / number;
+      const double height_noise = double(level->height_noise) * double(level->spacing) / sigma;
+      BOOST_TEST_MESSAGE("noise " << noise << ", " << number << " surfels of " << n << " samples, variance " << variance
+                                  << ", height noise " << height_noise << " sigma");
+      BOOST_TEST(std::abs(variance - 1) < 5 * std::sqrt(2 * squared_weights) / samples);
+      // Three quarters of normal deviates are below 1.15 standard deviations. Of the heights of two surfels over a
+      // plane the variance is twice that of one; where the plane is that of the one, its tilt over a distance of the
+      // spacing adds that of a plane of least squares, 12 times that of one, or that of two rows of samples at its
+      // ends.
+      const double of_one = 1.15 / std::sqrt(n);
+      BOOST_TEST(height_noise > 0.9 * of_one);
+      BOOST_TEST(height_noise < 1.1 * of_one * std::sqrt(2 + (std::max)(12., 2 * std::sqrt(n))));
+      if (level == &reduced.coarse) measured.push_back(height_noise);
+    }
+  }
+  // It is in proportion.
+  for (const double m : measured) BOOST_TEST(std::abs(m / measured.front() - 1) < 0.2);
+}

@@ -1,0 +1,192 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// How poses are judged: by what agrees and by free space.
+
+#define BOOST_TEST_MODULE pose_judge
+#include <boost/test/unit_test.hpp>
+
+#include "statue_views.h"
+
+#include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+using CR::internal::Agreement;
+using CR::internal::Pose;
+using CR::internal::Pose_judge;
+using CR::internal::Reduced_scan;
+using CR::internal::to_pose;
+
+namespace {
+
+const View& a()
+{
+  return view(0, 0);
+}
+const View& b()
+{
+  return view(0, 45);
+}
+
+// Between the own frames of the two scans.
+Rigid_motion own(const Rigid_motion& input)
+{
+  return b().scan.reduced().own_from_input * input * a().scan.reduced().own_from_input.inverse();
+}
+
+Rigid_motion turned(const Rigid_motion& m, double angle, const Vector& shift)
+{
+  Rigid_motion by;
+  by.rotation = Eigen::AngleAxisd(angle, Vector(1, -2, 2).normalized()).toRotationMatrix();
+  by.translation = shift;
+  return by * m;
+}
+
+Pose_judge judge_of(const Reduced_scan& source, const Reduced_scan& target)
+{
+  return Pose_judge(source, target, CR::internal::Execution::SEQUENTIAL, CR::internal::to_the_end());
+}
+
+// The share of the probes of a scan, moved to the frame of a view, that are nearer to its sensor by `depth` than all
+// samples whose lines of sight pass within `reach` of them, and, where `surrounded` says so, all around: by all pairs.
+double share_before(const Reduced_scan& scan, const Rigid_motion& view_from_own, const View& view, double depth,
+                    double reach, bool surrounded)
+{
+  const std::size_t n = (std::min)(std::size_t(2500), scan.fine.probes.size());
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector p = view_from_own(scan.fine.surfels[std::size_t(scan.fine.probes[i])].position.cast<double>());
+    double least = (std::numeric_limits<double>::max)();
+    Vector sum = Vector::Zero();
+    int count = 0;
+    for (const Point& q : view.image.points()) {
+      const Vector v = to_vector(q), beside = v * (p.squaredNorm() / v.dot(p)) - p;
+      if (!(v.dot(p) > 0) || beside.norm() > reach) continue;
+      least = (std::min)(least, v.norm());
+      sum += beside;
+      ++count;
+    }
+    before += count > 0 && (!surrounded || sum.norm() < 0.25 * reach * count) && p.norm() < least - depth;
+  }
+  return double(before) / double(n);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(the_true_motion_scores_best)
+{
+  const Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
+  const Rigid_motion wanted = own(true_motion(a(), b()));
+  const Agreement best = judge.assess(to_pose(wanted));
+  BOOST_TEST(best.overlap > 0.3f);
+  BOOST_TEST(best.violations < 0.02f);
+  BOOST_TEST(best.score() == best.overlap - 2 * best.violations);
+  for (const double angle : {0.02, 0.1, 0.3, 1.0, 3.0})
+    BOOST_TEST(judge.assess(to_pose(turned(wanted, angle, 0.1 * angle * Vector(1, 1, 1)))).score() < best.score());
+  // Far away nothing agrees.
+  BOOST_TEST(judge.assess(to_pose(turned(wanted, 0, Vector(50, 40, 0)))).overlap == 0.f);
+}
+
+// What is counted is in front of all that was seen nearby, and all that is so by far is counted: free space is kept in
+// cells, so that it depends on the place by a cell or two what is near.
+BOOST_AUTO_TEST_CASE(violations_are_what_lies_in_front_of_either_scan)
+{
+  const Reduced_scan &source = a().scan.reduced(), &target = b().scan.reduced();
+  const Pose_judge judge = judge_of(source, target), back = judge_of(target, source);
+  const Rigid_motion truth = true_motion(a(), b());
+  const double spacing = (std::max)(a().scan.spacing(), b().scan.spacing());
+  float largest = 0;
+  // The sensors look along -z: the source comes nearer to the sensor of the target.
+  for (const double shift : {0., 0.2, 0.5})
+    for (const double angle : {0., 0.5, 2.}) {
+      Rigid_motion motion;
+      const Vector centre = truth(a().centre);
+      motion.rotation = Eigen::AngleAxisd(angle, Vector::UnitY()).toRotationMatrix();
+      motion.translation = centre - motion.rotation * centre + Vector(0, 0, shift);
+      motion = motion * truth;
+      const Agreement agreement = judge.assess(to_pose(own(motion)));
+      const auto expected = [&](double depth, double reach, bool surrounded) {
+        return share_before(source, motion * source.own_from_input.inverse(), b(), depth, reach, surrounded) +
+               share_before(target, motion.inverse() * target.own_from_input.inverse(), a(), depth, reach, surrounded);
+      };
+      const double most = expected(2.5 * spacing, 1.5 * spacing, false),
+                   least = expected(4 * spacing, 8 * spacing, true);
+      BOOST_TEST_CONTEXT("shift " << shift << ", angle " << angle)
+      {
+        BOOST_TEST_MESSAGE(least << " <= " << agreement.violations << " <= " << most);
+        BOOST_TEST(double(agreement.violations) >= least - 0.02);
+        BOOST_TEST(double(agreement.violations) <= most + 0.02);
+        // Seen from the other side it is the same.
+        BOOST_TEST(std::abs(back.assess(to_pose(own(motion)).inverse()).violations - agreement.violations) < 1e-3f);
+        BOOST_TEST(agreement.violations >= 0.f);
+        BOOST_TEST(agreement.violations <= 2.f);
+      }
+      largest = (std::max)(largest, agreement.violations);
+    }
+  BOOST_TEST(largest > 0.5f);
+}
+
+BOOST_AUTO_TEST_CASE(a_judged_pose_is_refined)
+{
+  const Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
+  const Rigid_motion wanted = own(true_motion(a(), b()));
+  const double spacing = a().scan.spacing();
+  const Vector middle = Vector::Zero(); // of the source in its own frame
+  const Rigid_motion crude = turned(wanted, 0.02, 1.5 * spacing * Vector(1, -1, 1));
+  const auto judged = judge.judged(to_pose(crude));
+  const double off = difference(crude, wanted, middle);
+  BOOST_TEST(difference(CR::internal::to_rigid_motion(judged.pose), wanted, middle) < 0.3 * off);
+  BOOST_TEST(judged.score() > judge.assess(to_pose(crude)).score());
+  BOOST_TEST((judged.proposed.rotation == to_pose(crude).rotation));
+
+  // Of many poses the best, with what was proposed for each.
+  std::vector<Pose> proposed;
+  for (int i = 0; i < 40; ++i) proposed.push_back(to_pose(turned(wanted, 0.02 + 0.15 * i, Vector(0, 0, 0.01 * i))));
+  std::rotate(proposed.begin(), proposed.begin() + 7, proposed.end());
+  Pose_judge many = judge_of(a().scan.reduced(), b().scan.reduced());
+  const auto all = many(proposed, 8);
+  BOOST_TEST_REQUIRE(!all.empty());
+  BOOST_TEST(all.size() <= 8u);
+  std::vector<CR::internal::Judged_pose> distinct;
+  for (const auto& j : all) {
+    BOOST_TEST(std::any_of(proposed.begin(), proposed.end(), [&](const Pose& p) {
+      return p.rotation == j.proposed.rotation && p.translation == j.proposed.translation;
+    }));
+    many.add_distinct(j, distinct);
+  }
+  BOOST_TEST(difference(CR::internal::to_rigid_motion(distinct.front().pose), wanted, middle) < 2 * spacing);
+  for (std::size_t i = 1; i < distinct.size(); ++i) {
+    BOOST_TEST(distinct[i].score() <= distinct[i - 1].score());
+    for (std::size_t j = 0; j < i; ++j)
+      BOOST_TEST(!Pose_judge::are_one(distinct[i].pose, distinct[j].pose, float(a().scan.extent())));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(without_free_space_nothing_is_violated)
+{
+  Mesh statue;
+  CR::make_statue(statue, 48);
+  const Scan closed(statue);
+  BOOST_TEST_REQUIRE(!closed.has_free_space());
+  const Pose_judge judge = judge_of(closed.reduced(), closed.reduced());
+  for (const double angle : {0., 1., 3.})
+    for (const double shift : {0., 0.5, 5.})
+      BOOST_TEST(judge.assess(to_pose(turned(Rigid_motion(), angle, Vector(shift, 0, 0)))).violations == 0.f);
+  // One that knows it, against one that does not.
+  const Pose_judge one = judge_of(a().scan.reduced(), closed.reduced());
+  float largest = 0;
+  for (const double shift : {-1., -0.5, 0.5, 1.})
+    largest = (std::max)(largest, one.assess(to_pose(turned(Rigid_motion(), 1, Vector(0, 0, shift)))).violations);
+  BOOST_TEST(largest > 0.f);
+  BOOST_TEST(largest <= 1.f);
+}
