@@ -11,7 +11,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
-#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
+#include <CGAL/Crude_registration/reduction/simplify_scan.h>
 #include <CGAL/Crude_registration/internal/matching/Trihedron_search.h>
 #include <CGAL/Crude_registration/simulation/make_statue.h>
 #include <CGAL/Crude_registration/simulation/simulate_range_image.h>
@@ -74,9 +74,8 @@ Scan scan_of(const CR::Range_image<Kernel>& image, std::int32_t vertices)
   Scan scan;
   scan.dense = flat_mesh_of(mesh);
   scan.sensor = CR::internal::to_flat_sensor(image.sensor());
-  CR::internal::Quadric_simplification simplification(scan.dense, 0);
-  simplification.collapse_to_number(vertices);
-  scan.simplified_mesh = simplification.mesh().mesh;
+  CR::simplify_scan(mesh, CR::parameters::number_of_vertices(vertices));
+  scan.simplified_mesh = flat_mesh_of(mesh);
   prepare(scan);
   return scan;
 }

@@ -20,6 +20,7 @@
 // The names of this package: ADD(name).
 #define CGAL_CRUDE_REGISTRATION_OWN_PARAMETERS(ADD)                                                                    \
   ADD(approximation_error)                                                                                             \
+  ADD(cell_size)                                                                                                       \
   ADD(curvature_map)                                                                                                   \
   ADD(maximum_distance)                                                                                                \
   ADD(maximum_edge_ratio)                                                                                              \
