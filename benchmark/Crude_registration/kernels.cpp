@@ -17,7 +17,6 @@
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
 #include <CGAL/Crude_registration/internal/matching/Oriented_pair_search.h>
 #include <CGAL/Crude_registration/internal/motion/refine_step.h>
-#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
 #include <CGAL/Crude_registration/motion/refine_motion.h>
 #include <CGAL/Crude_registration/reduction/principal_curvatures.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
@@ -124,9 +123,10 @@ void simplification(benchmark::State& state)
   const double error = CR::approximation_error(in.source.image);
   std::size_t left = 0;
   for (auto _ : state) {
-    CR::internal::Quadric_simplification simplification(in.flat, 3.5 * in.sampling_distance);
-    simplification.collapse_to_error(error);
-    left = std::size_t(simplification.number_of_vertices());
+    state.PauseTiming();
+    Mesh mesh = in.source_mesh;
+    state.ResumeTiming();
+    left = CR::simplify_scan(mesh, CR::parameters::approximation_error(error).cell_size(3.5 * in.sampling_distance));
   }
   count_vertices(state, in.source_mesh);
   state.counters["left"] = double(left);

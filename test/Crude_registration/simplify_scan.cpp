@@ -15,9 +15,9 @@
 #include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
-#include <CGAL/Crude_registration/internal/reduction/Quadric_simplification.h>
-#include <CGAL/Crude_registration/internal/reduction/scan_frame.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
+#include <CGAL/Crude_registration/reduction/surface_types.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -66,10 +66,10 @@ BOOST_AUTO_TEST_CASE(the_error_is_a_mean_squared_distance)
     const std::size_t n = CR::simplify_scan(mesh, parameters::approximation_error(error));
     BOOST_TEST(n < previous);
     previous = n;
-    // The same cost and the same rules without a line of CGAL.
-    CR::internal::Quadric_simplification other(dense, 0);
-    other.collapse_to_error(error);
-    if (error > 0) BOOST_TEST(std::abs(double(n) - other.number_of_vertices()) < 0.2 * double(n));
+    // The same with quadrics and a placement without a line of CGAL: no two vertices are in one cell.
+    Mesh other = mesh_of<Mesh>(dense);
+    const std::size_t m = CR::simplify_scan(other, parameters::approximation_error(error).cell_size(1e-6));
+    if (error > 0) BOOST_TEST(std::abs(double(n) - double(m)) < 0.2 * double(n));
   }
 }
 
@@ -213,15 +213,14 @@ BOOST_AUTO_TEST_CASE(real_scans_are_left_with_the_papers_number_of_vertices,
     BOOST_TEST(smooth < 46.5);
 
     const double error = CR::approximation_error(image);
-    CR::internal::Flat_mesh flat = flat_mesh_of(mesh);
-    flat = generated::moved(flat, CR::internal::scan_frame(flat));
-    CR::internal::Quadric_simplification fast(flat, 3.5 * CR::sampling_distance(image));
-    fast.collapse_to_error(error);
-    sum += fast.number_of_vertices();
+    Mesh copy = mesh;
+    const double grouped = double(
+        CR::simplify_scan(copy, parameters::approximation_error(error).cell_size(3.5 * CR::sampling_distance(image))));
+    sum += grouped;
     if (name != "bun090") continue; // one is enough for the slow path
     const double plain = double(CR::simplify_scan(mesh, parameters::approximation_error(error)));
     BOOST_TEST(plain < 1.2 * 400);
-    BOOST_TEST(std::abs(fast.number_of_vertices() - plain) < 0.2 * plain);
+    BOOST_TEST(std::abs(grouped - plain) < 0.2 * plain);
   }
   BOOST_TEST(std::abs(sum / 4 - 400) < 0.15 * 400);
 }

@@ -27,6 +27,7 @@
 #define CGAL_CRUDE_REGISTRATION_OWN_PARAMETERS(ADD)                                                                    \
   ADD(approximation_error)                                                                                             \
   ADD(candidates)                                                                                                      \
+  ADD(cell_size)                                                                                                       \
   ADD(curvature_map)                                                                                                   \
   ADD(maximum_distance)                                                                                                \
   ADD(maximum_edge_ratio)                                                                                              \

@@ -105,10 +105,10 @@ parameter `candidates`), *judge* them by what agrees and by the free space of bo
     \cgalParamDefault{none}
     \cgalParamExtra{It is called by the calling thread, about once a millisecond.}
   \cgalParamNEnd
-  \cgalParamNBegin{approximation_error, number_of_vertices}
+  \cgalParamNBegin{approximation_error, number_of_vertices, cell_size}
     \cgalParamDescription{how far `Trihedron_candidates` simplifies the mesh, see `simplify_scan()`; read from both}
-    \cgalParamType{`double`; an integer}
-    \cgalParamDefault{`approximation_error()` of the mesh}
+    \cgalParamType{`double`; an integer; `double`}
+    \cgalParamDefault{`approximation_error()` of the mesh; no limit; no grouping}
   \cgalParamNEnd
 \cgalNamedParamsEnd
 

@@ -81,8 +81,8 @@ public:
     \cgalParamNEnd
   \cgalNamedParamsEnd
 
-  The simplification of each scan is that scan's: its parameters `approximation_error` and `number_of_vertices`, as
-  `simplify_scan()` reads them, are given to `Scan`, or to `register_meshes()` for either mesh.
+  The simplification of each scan is that scan's: its parameters `approximation_error`, `number_of_vertices` and
+  `cell_size`, as `simplify_scan()` reads them, are given to `Scan`, or to `register_meshes()` for either mesh.
 
   \throws std::invalid_argument if not \f$ 0 \le f_1 < f_2 \f$, or a number is not finite or out of its range
   */
@@ -127,6 +127,7 @@ public:
     if constexpr (internal::is_given<NamedParameters, internal_np::number_of_vertices_t>)
       options.number_of_vertices = internal::count_parameter(np, internal_np::number_of_vertices, std::size_t(0), 0,
                                                              name.c_str(), "number_of_vertices");
+    options.cell_size = internal::non_negative_parameter(np, internal_np::cell_size, 0, name.c_str(), "cell_size");
     scan.simplified = internal::simplify_flat_scan(dense, sensor, image, scan, options, control);
   }
 

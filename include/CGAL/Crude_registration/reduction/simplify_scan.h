@@ -12,112 +12,53 @@
 #ifndef CGAL_CRUDE_REGISTRATION_REDUCTION_SIMPLIFY_SCAN_H
 #define CGAL_CRUDE_REGISTRATION_REDUCTION_SIMPLIFY_SCAN_H
 
-#include <CGAL/Crude_registration/reduction/approximation_error.h>
+// Simplification of a scan's mesh to the vertices that registration works with.
+
+#include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/reduction/collapse_edges.h>
+#include <CGAL/Crude_registration/internal/reduction/group_by_cells.h>
+#include <CGAL/Crude_registration/internal/reduction/scan_frame.h>
 #include <CGAL/Crude_registration/named_parameters.h>
+#include <CGAL/Crude_registration/reduction/approximation_error.h>
 
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/Surface_mesh/Surface_mesh.h>
 
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// CGAL's plane policies with the cost divided by the number of planes it sums the squared distances to: the mean
-// squared distance of the new vertex to the planes of the faces that it stands for. A plane of unit normal n adds n n^T
-// to the quadric, of trace 1. Without a term for the border (discontinuity multiplier 0) the trace of the left upper 3
-// x 3 block is the number of planes. No state besides the quadrics, which the copies that edge_collapse() makes of its
-// policies share.
-template <class Triangle_mesh, class Geom_traits>
-class Mean_squared_distance_policies
-    : public Surface_mesh_simplification::GarlandHeckbert_plane_policies<Triangle_mesh, Geom_traits>
+// Simplifies by grouping and collapse, whatever the type of the mesh that comes and goes. The grid of cells lies in the
+// scan's own frame, with which it moves.
+inline Flat_mesh simplify_by_groups(Flat_mesh mesh, double cell, const Simplification_limits& limits)
 {
-  using Base = Surface_mesh_simplification::GarlandHeckbert_plane_policies<Triangle_mesh, Geom_traits>;
+  using Point = CGAL::Simple_cartesian<double>::Point_3;
+  // Relative to the centre of the box first: far from the origin a rotation would cost digits.
+  const Rigid_motion frame = scan_frame(mesh);
+  const Vector centre = centre_of_box(mesh.points), new_centre = frame(centre);
+  for (Vector& p : mesh.points) p = frame.rotation * (p - centre) + new_centre;
 
-public:
-  using Get_cost = Mean_squared_distance_policies;
-  using Get_placement = Mean_squared_distance_policies;
-
-  explicit Mean_squared_distance_policies(Triangle_mesh& mesh) : Base(mesh, 0) {}
-
-  const Get_cost& get_cost() const { return *this; }
-  const Get_placement& get_placement() const { return *this; }
-
-  // A vertex all of whose faces have no area has no plane, which the policies do not allow for: it gets the mean of the
-  // squared distances to all planes through it, with the weight of one plane.
-  template <class Point_map>
-  void initialize(const Triangle_mesh& mesh, const Point_map point_map, const Geom_traits& traits) const
-  {
-    Base::initialize(mesh, point_map, traits);
-    for (auto v : vertices(mesh)) {
-      if (number_of_planes(v) > 0) continue;
-      const auto& p = get(point_map, v);
-      typename Base::Mat_4 quadric = Base::Mat_4::Identity();
-      quadric.row(3) << -p.x(), -p.y(), -p.z(), p.x() * p.x() + p.y() * p.y() + p.z() * p.z();
-      quadric.col(3) = quadric.row(3).transpose().eval();
-      put(this->vcm(), v, quadric / 3);
-    }
-  }
-
-  // Placement.
-  template <class Profile>
-  decltype(auto) operator()(const Profile& profile) const
-  {
-    return Base::operator()(profile);
-  }
-
-  // Cost. The optional types are boost's in CGAL 5 and the standard's in CGAL 6.
-  template <class Profile, class Optional_point>
-  auto operator()(const Profile& profile, const Optional_point& placement) const
-  {
-    auto cost = Base::operator()(profile, placement);
-    const auto planes = number_of_planes(profile.v0()) + number_of_planes(profile.v1());
-    if (cost && planes > 0) *cost /= planes;
-    return cost;
-  }
-
-private:
-  template <class Vertex>
-  typename Geom_traits::FT number_of_planes(Vertex v) const
-  {
-    const auto& quadric = get(this->vcm(), v);
-    return quadric(0, 0) + quadric(1, 1) + quadric(2, 2);
-  }
-};
-
-template <class Triangle_mesh, class Point_map, class Geom_traits>
-struct Collapse_counter : Surface_mesh_simplification::Edge_collapse_visitor_base<Triangle_mesh, Point_map, Geom_traits>
-{
-  using Base = Surface_mesh_simplification::Edge_collapse_visitor_base<Triangle_mesh, Point_map, Geom_traits>;
-
-  // The visitor is copied.
-  explicit Collapse_counter(std::size_t& counter) : vertices_left(&counter) {}
-
-  void OnCollapsed(const typename Base::Profile&, const typename Base::vertex_descriptor&) { --*vertices_left; }
-
-  std::size_t* vertices_left;
-};
-
-struct Simplification_stop
-{
-  double mean_squared_distance;
-  std::size_t number_of_vertices;
-  const std::size_t* vertices_left;
-
-  template <class FT, class Profile>
-  bool operator()(const FT& cost, const Profile&, std::size_t, std::size_t) const
-  {
-    return cost > mean_squared_distance || *vertices_left <= number_of_vertices;
-  }
-};
+  // Half of the error that is allowed is left to the collapse; where a number of vertices may be what stops it, no
+  // error is known before. As many are left as without (table_1_reduction), in half the time.
+  const bool is_error_known = limits.number_of_vertices == 0;
+  const Grouped_mesh groups = group_by_cells(mesh, cell, is_error_known ? limits.mean_squared_distance / 2 : 0);
+  CGAL::Surface_mesh<Point> surface;
+  add_flat_mesh(groups.mesh, surface, parameters::default_values());
+  const Given_quadrics_policies<CGAL::Surface_mesh<Point>, CGAL::Simple_cartesian<double>> policies(surface,
+                                                                                                    groups.quadrics);
+  collapse_edges(surface, surface.points(), groups.mesh.points.size(), limits, policies);
+  mesh = to_flat_mesh(surface, parameters::default_values(), "simplify_scan", "mesh");
+  for (Vector& p : mesh.points) p = frame.rotation.transpose() * (p - new_centre) + centre;
+  return mesh;
+}
 
 } // namespace internal
 
@@ -136,6 +77,15 @@ struct Simplification_stop
  *
  * The simplification stops as soon as the next collapse would cost more than `approximation_error` or
  * `number_of_vertices` are left. If neither is given, `approximation_error(mesh, np)` is used.
+ *
+ * With `cell_size` the vertices of each connected piece of `mesh` inside a cell of a grid are grouped into one vertex
+ * first, with the sum of their quadrics: the cost of a collapse still is the mean squared distance to the planes of the
+ * faces of `mesh`. Groups inside the surface unite to larger ones where the mean squared distance of one vertex to the
+ * planes of all is at most half of `approximation_error` (not if a number of vertices is given). The grid moves along
+ * with the scan. Where the groups are no manifold, a face of an edge of three is left out and a vertex where parts of
+ * the surface touch is repeated for each of them. Pieces of the surface within one or two cells vanish, closed surfaces
+ * stay closed. What `mesh` holds is replaced: a `vertex_point_map` has to take the vertices that are added then, as the
+ * property maps of a mesh do, and other property maps get no values.
  *
  * Vertices without a face are removed. The computations are done in `double`, in coordinates relative to the centre of
  * the mesh's bounding box, whatever the mesh's kernel; vertices that take part in no collapse keep their coordinates.
@@ -167,6 +117,13 @@ struct Simplification_stop
  *     \cgalParamType{an integer}
  *     \cgalParamDefault{`0`}
  *   \cgalParamNEnd
+ *   \cgalParamNBegin{cell_size}
+ *     \cgalParamDescription{the edge length of the cells in which vertices are grouped before the collapse}
+ *     \cgalParamType{`double`, a length, zero or above}
+ *     \cgalParamDefault{`0`: no grouping}
+ *     \cgalParamExtra{Cells of three to four sampling distances leave about as many vertices as no grouping, in a
+ *                      fraction of the time.}
+ *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
  * \return the number of vertices left
@@ -177,25 +134,31 @@ struct Simplification_stop
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 std::size_t simplify_scan(TriangleMesh& mesh, const NamedParameters& np = parameters::default_values())
 {
-  namespace SMS = CGAL::Surface_mesh_simplification;
   using internal::is_given;
-  using Kernel = CGAL::Simple_cartesian<double>;
-  using Point = Kernel::Point_3;
+  using Point = CGAL::Simple_cartesian<double>::Point_3;
   using Local_map = typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Point>>::type;
 
   const internal::Flat_mesh flat = internal::to_flat_mesh(mesh, np, "simplify_scan", "mesh");
   constexpr bool has_number = is_given<NamedParameters, internal_np::number_of_vertices_t>;
   constexpr bool has_error = is_given<NamedParameters, internal_np::approximation_error_t>;
-  std::size_t vertices_left = 0;
-  internal::Simplification_stop stop;
-  stop.vertices_left = &vertices_left;
-  stop.number_of_vertices = internal::count_parameter(np, internal_np::number_of_vertices, std::size_t(0), 0,
-                                                      "simplify_scan", "number_of_vertices");
-  stop.mean_squared_distance = (std::numeric_limits<double>::max)();
+  internal::Simplification_limits limits;
+  limits.number_of_vertices = internal::count_parameter(np, internal_np::number_of_vertices, std::size_t(0), 0,
+                                                        "simplify_scan", "number_of_vertices");
+  limits.mean_squared_distance = (std::numeric_limits<double>::max)();
   if constexpr (has_error)
-    stop.mean_squared_distance = internal::non_negative_parameter(np, internal_np::approximation_error, 0.0,
-                                                                  "simplify_scan", "approximation_error");
-  else if constexpr (!has_number) stop.mean_squared_distance = internal::approximation_error(flat, np, "simplify_scan");
+    limits.mean_squared_distance = internal::non_negative_parameter(np, internal_np::approximation_error, 0.0,
+                                                                    "simplify_scan", "approximation_error");
+  else if constexpr (!has_number)
+    limits.mean_squared_distance = internal::approximation_error(flat, np, "simplify_scan");
+  if constexpr (is_given<NamedParameters, internal_np::cell_size_t>) {
+    const double cell = internal::non_negative_parameter(np, internal_np::cell_size, 0.0, "simplify_scan", "cell_size");
+    if (cell > 0) {
+      const internal::Flat_mesh simplified = internal::simplify_by_groups(flat, cell, limits);
+      internal::remove_all_elements(mesh);
+      internal::add_flat_mesh(simplified, mesh, np);
+      return simplified.points.size();
+    }
+  }
 
   // Far from the origin the quadrics of the original coordinates would lose the distances to rounding.
   const internal::Vector centre = internal::centre_of_box(flat.points);
@@ -209,16 +172,9 @@ std::size_t simplify_scan(TriangleMesh& mesh, const NamedParameters& np = parame
     if (halfedge(v, mesh) == boost::graph_traits<TriangleMesh>::null_halfedge()) isolated.push_back(v);
   }
   for (auto v : isolated) remove_vertex(v, mesh);
-  vertices_left = flat.points.size() - isolated.size();
-
-  const internal::Mean_squared_distance_policies<TriangleMesh, Kernel> policies(mesh);
-  SMS::edge_collapse(mesh, stop,
-                     CGAL::parameters::vertex_point_map(local_map)
-                         .geom_traits(Kernel())
-                         .get_cost(policies.get_cost())
-                         .get_placement(policies.get_placement())
-                         .filter(SMS::Bounded_normal_change_filter<>())
-                         .visitor(internal::Collapse_counter<TriangleMesh, Local_map, Kernel>(vertices_left)));
+  const internal::Mean_squared_distance_policies<TriangleMesh, CGAL::Simple_cartesian<double>> policies(mesh);
+  const std::size_t vertices_left =
+      internal::collapse_edges(mesh, local_map, flat.points.size() - isolated.size(), limits, policies);
 
   using Target_point = typename boost::property_traits<std::decay_t<decltype(point_map)>>::value_type;
   for (auto v : vertices(mesh)) {

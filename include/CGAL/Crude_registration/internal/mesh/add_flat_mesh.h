@@ -22,6 +22,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace CGAL {
@@ -44,6 +45,31 @@ void add_flat_mesh(const Flat_mesh& flat, FaceGraph& mesh, const NamedParameters
     Euler::add_face(std::array{vertices[static_cast<std::size_t>(f[0])], vertices[static_cast<std::size_t>(f[1])],
                                vertices[static_cast<std::size_t>(f[2])]},
                     mesh);
+}
+
+// Leaves the property maps of the mesh, which CGAL::clear() of a Surface_mesh does not.
+template <class Mesh>
+auto remove_all_elements(Mesh& mesh, int) -> decltype(mesh.clear_without_removing_property_maps())
+{
+  mesh.clear_without_removing_property_maps();
+}
+
+template <class Mesh>
+void remove_all_elements(Mesh& mesh, long)
+{
+  const auto remove_all = [&mesh](const auto& range, const auto& remove) {
+    const std::vector<std::decay_t<decltype(*range.begin())>> all(range.begin(), range.end());
+    for (auto element : all) remove(element, mesh);
+  };
+  remove_all(faces(mesh), [](auto f, Mesh& m) { remove_face(f, m); });
+  remove_all(edges(mesh), [](auto e, Mesh& m) { remove_edge(e, m); });
+  remove_all(vertices(mesh), [](auto v, Mesh& m) { remove_vertex(v, m); });
+}
+
+template <class Mesh>
+void remove_all_elements(Mesh& mesh)
+{
+  remove_all_elements(mesh, 0);
 }
 
 } // namespace internal

@@ -15,11 +15,14 @@
 // The simplification of simplify_flat_scan.h, on CGAL's edge collapse, and the description of the vertices left.
 
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/fill_small_holes.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/reduction/Matching_vertices.h>
 #include <CGAL/Crude_registration/internal/reduction/measure_scan.h>
+#include <CGAL/Crude_registration/internal/reduction/collapse_edges.h>
 #include <CGAL/Crude_registration/internal/reduction/simplify_flat_scan.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -35,12 +38,35 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// The paper's approximation error of a scan.
-inline double error_of_scan(const Flat_mesh& dense, const Flat_sensor& sensor, const Flat_range_image* image)
+// The paper's approximation error of a scan of sampling distance `s`.
+inline double error_of_scan(const Flat_mesh& dense, const Flat_sensor& sensor, const Flat_range_image* image, double s)
 {
-  const double s = image ? sampling(*image).distance : median_edge_length(dense);
   const Vector extent = image ? extent_of_image(*image, dense) : extent_of_mesh(dense, sensor);
   return approximation_error(s, (std::max)(extent.x(), extent.y()), percent_smooth(dense));
+}
+
+// `mesh`: as of simplify_scan(), in coordinates of which rounding takes nothing. \throws Run_control::Stopped
+inline Flat_mesh simplified(const Flat_mesh& dense, double cell, double largest_hole,
+                            const Simplification_limits& limits)
+{
+  using Point = CGAL::Simple_cartesian<double>::Point_3;
+  using Mesh = CGAL::Surface_mesh<Point>;
+  const Vector centre = centre_of_box(dense.points);
+  Flat_mesh centred = dense;
+  for (Vector& p : centred.points) p -= centre;
+  Mesh mesh;
+  add_flat_mesh(centred, mesh, parameters::default_values());
+  // A sample that the sensor lost leaves a hole, whose vertices would all be on a border, and no collapse closes it.
+  fill_small_holes(mesh, mesh.points(), largest_hole);
+  if (cell > 0) {
+    centred = simplify_by_groups(to_flat_mesh(mesh, parameters::default_values(), "simplified", "mesh"), cell, limits);
+  } else {
+    const Mean_squared_distance_policies<Mesh, CGAL::Simple_cartesian<double>> policies(mesh);
+    collapse_edges(mesh, mesh.points(), mesh.number_of_vertices(), limits, policies);
+    centred = to_flat_mesh(mesh, parameters::default_values(), "simplified", "mesh");
+  }
+  for (Vector& p : centred.points) p += centre;
+  return centred;
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE std::shared_ptr<const Simplified_scan>
@@ -48,27 +74,25 @@ simplify_flat_scan(const Flat_mesh& dense, const Flat_sensor& sensor, const Flat
                    const Reduced_scan& scan, const Simplification_options& options, Run_control& control)
 {
   control.check();
-  CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3> mesh;
-  add_flat_mesh(dense, mesh, parameters::default_values());
-  const auto stop_at = [&](double error, std::size_t number) {
-    simplify_scan(mesh, parameters::approximation_error(error).number_of_vertices(number));
-  };
-  const std::size_t number = options.number_of_vertices.value_or(0);
-  if (options.approximation_error) stop_at(*options.approximation_error, number);
-  else if (options.number_of_vertices) stop_at((std::numeric_limits<double>::max)(), number);
-  else stop_at(error_of_scan(dense, sensor, image), 0);
+  const double s = image ? sampling(*image, control).distance : median_edge_length(dense);
+  Simplification_limits limits;
+  limits.control = &control;
+  limits.number_of_vertices = options.number_of_vertices.value_or(0);
+  limits.mean_squared_distance = (std::numeric_limits<double>::max)();
+  if (options.approximation_error) limits.mean_squared_distance = *options.approximation_error;
+  else if (!options.number_of_vertices) limits.mean_squared_distance = error_of_scan(dense, sensor, image, s);
+  // What is no further apart than samples are joined.
+  const Flat_mesh simple = simplified(dense, options.cell_size, default_maximum_edge_ratio * s, limits);
   control.check();
-  mesh.collect_garbage();
-  const Flat_mesh simplified = to_flat_mesh(mesh, parameters::default_values(), "simplify_flat_scan", "mesh");
 
   auto result = std::make_shared<Simplified_scan>();
   // The neighbourhood that describes a vertex: what is left of the noise of a scan in a fit over some hundred samples
   // does not hide the shape.
   result->description_radius = 10 * scan.spacing;
-  result->vertices = matching_vertices(simplified, dense, vertex_normals(dense), result->description_radius);
+  result->vertices = matching_vertices(simple, dense, vertex_normals(dense), result->description_radius);
   for (Vector& p : result->vertices.points) p = scan.own_from_input(p);
   for (Vector& n : result->vertices.normals) n = scan.own_from_input.rotation * n;
-  result->spacing = median_edge_length(simplified);
+  result->spacing = median_edge_length(simple);
   return result;
 }
 
