@@ -10,6 +10,8 @@
 
 #include "generated_surfaces.h"
 
+#include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/reduction/Curvature_average.h>
 #include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
 
 #include <algorithm>

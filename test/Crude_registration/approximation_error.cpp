@@ -13,6 +13,7 @@
 #include "wrong_use.h"
 
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/reduction/scan_extent.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>
