@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
 #include <CGAL/Crude_registration/reduction/surface_types.h>
+#include <CGAL/Crude_registration/sampling/sampling_distance.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
