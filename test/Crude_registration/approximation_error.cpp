@@ -14,6 +14,7 @@
 
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
 #include <CGAL/Crude_registration/reduction/scan_extent.h>
+#include <CGAL/Crude_registration/reduction/surface_types.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>

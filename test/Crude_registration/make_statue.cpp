@@ -10,6 +10,8 @@
 
 #include "mesh_of.h"
 
+#include <CGAL/Crude_registration/internal/simulation/Statue.h>
+#include <CGAL/Crude_registration/internal/simulation/marching_tetrahedra.h>
 #include <CGAL/Crude_registration/simulation/make_statue.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 

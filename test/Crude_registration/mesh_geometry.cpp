@@ -11,6 +11,7 @@
 #include "generated_surfaces.h"
 #include "wrong_use.h"
 
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 

@@ -9,6 +9,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include "range_images.h"
+
+#include <CGAL/Crude_registration/sampling/sampling_distance.h>
 #include "wrong_use.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
