@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(a_judged_pose_is_refined)
   for (int i = 0; i < 40; ++i) proposed.push_back(to_pose(turned(wanted, 0.02 + 0.15 * i, Vector(0, 0, 0.01 * i))));
   std::rotate(proposed.begin(), proposed.begin() + 7, proposed.end());
   Pose_judge many = judge_of(a().scan.reduced(), b().scan.reduced());
-  const auto all = many(proposed, 8);
+  const auto all = many(proposed, false, 8);
   BOOST_TEST_REQUIRE(!all.empty());
   BOOST_TEST(all.size() <= 8u);
   std::vector<CR::internal::Judged_pose> distinct;
@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(a_judged_pose_is_refined)
   for (std::size_t i = 1; i < distinct.size(); ++i) {
     BOOST_TEST(distinct[i].score() <= distinct[i - 1].score());
     for (std::size_t j = 0; j < i; ++j)
-      BOOST_TEST(!Pose_judge::are_one(distinct[i].pose, distinct[j].pose, float(a().scan.extent())));
+      BOOST_TEST(!CR::internal::are_one(distinct[i].pose, distinct[j].pose, float(a().scan.extent())));
   }
 }
 

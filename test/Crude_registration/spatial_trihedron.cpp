@@ -8,6 +8,7 @@
 #define BOOST_TEST_MODULE spatial_trihedron
 #include <boost/test/unit_test.hpp>
 
+#include <CGAL/Crude_registration/reduction/scan_extent.h>
 #include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
 
 #include <CGAL/Simple_cartesian.h>

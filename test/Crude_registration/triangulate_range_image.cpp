@@ -12,6 +12,7 @@
 #include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_range_image.h>
+#include <CGAL/Crude_registration/sampling/sampling_distance.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>

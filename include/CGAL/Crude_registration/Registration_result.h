@@ -115,8 +115,9 @@ public:
   }
 
   /// transformation() as the candidate generator proposed it, before the judge and the refinement moved it: by
-  /// `Oriented_pair_candidates` the motion of one pair of oriented points, by `Trihedron_candidates` that of a
-  /// trihedron, estimated again from all vertices of the simplified meshes that agree under it.
+  /// `Oriented_pair_candidates` the motion of a pair of oriented points, estimated again from all points of the reduced
+  /// surfaces that agree under it, by `Trihedron_candidates` that of a trihedron, estimated again from all vertices of
+  /// the simplified meshes that do.
   const Transformation& crude_transformation() const { return m_parts.crude_transformation; }
 
   /// The probability, in [0,1], that transformation() is right; at most 1/n where n distinct motions are equally good,

@@ -160,6 +160,8 @@ Refined_motion<Kernel> refine_motion(const SourceGraph& source, const TargetGrap
       internal::to_flat_mesh(target, internal::cgal_parameters(np_target), function, "target");
   const internal::Rigid_motion initial = internal::rigid_argument(initial_motion, function, "initial_motion");
 
+  if (!internal::has_area(source_mesh)) throw std::invalid_argument("refine_motion: source has no face with an area");
+  if (!internal::has_area(target_mesh)) throw std::invalid_argument("refine_motion: target has no face with an area");
   internal::Refinement_options options;
   options.sampling_distance = internal::positive_parameter(
       np_source, internal_np::sampling_distance,

@@ -16,6 +16,7 @@
 
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
+#include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
 #include <CGAL/Crude_registration/internal/motion/refine_step.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
@@ -37,22 +38,22 @@ public:
       : m_source(source), m_target(target), m_execution(execution), m_control(control),
         m_fine_source_probes(source.fine, 0, 2500), m_fine_target_probes(target.fine, 0, 2500)
   {
-    m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
     m_extent = float((std::min)(source.extent, target.extent));
-    // About the noise of the worst tenth of surfels; a floor, as sampling leaves something even of scans without noise.
-    m_coarse_look = look(source.coarse, target.coarse, 2.7f, 1.75f, 1.2f * m_spacing);
-    m_fine_look = look(source.fine, target.fine, 4.3f, 2.4f, 3 * float((std::max)(source.spacing, target.spacing)));
+    m_fine_look = look_at(source.fine, target.fine, 4.3f, 2.4f, 3 * float((std::max)(source.spacing, target.spacing)));
   }
 
   // The poses after refinement, looked at closely: of the best `number` of them, with no more than a few from around
-  // each place. None if the run is stopped.
-  std::vector<Judged_pose> operator()(const std::vector<Pose>& proposed, std::size_t number)
+  // each place. `are_estimated`: by whoever proposed them, best first. None if the run is stopped.
+  std::vector<Judged_pose> operator()(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number)
   {
-    const std::vector<Refined> best = refined(proposed, number);
+    std::vector<Estimated_pose> best;
+    if (are_estimated)
+      for (std::size_t i = 0; i < (std::min)(proposed.size(), number); ++i) best.push_back({proposed[i], 0, i});
+    else best = estimated_again(m_source, m_target, proposed, number, m_execution, m_control);
     std::vector<Judged_pose> poses(best.size());
     for_each_index(m_execution, best.size(), m_control, [&](std::size_t i) {
       poses[i] = judged(best[i].pose);
-      poses[i].proposed = proposed[best[i].proposal];
+      poses[i].proposed = proposed[best[i].index];
     });
     if (m_control.is_stopped()) return {};
     return poses;
@@ -97,79 +98,14 @@ public:
                   pose);
   }
 
-  // Poses that refinement will most likely make one: within some spacings and degrees.
-  static bool are_close(const Pose& a, const Pose& b, float spacing)
-  {
-    const float trace = (a.rotation.array() * b.rotation.array()).sum();
-    return trace > 2.989f && (a.translation - b.translation).squaredNorm() < 2.25f * spacing * spacing;
-  }
-
-  // Poses that are no more than 10 degrees and a twentieth of the extent apart.
-  static bool are_one(const Pose& a, const Pose& b, float extent)
-  {
-    const float trace = (a.rotation.array() * b.rotation.array()).sum();
-    return trace > 1 + 2 * 0.985f && (a.translation - b.translation).norm() < 0.05f * extent;
-  }
-
 private:
-  struct Refined
-  {
-    Pose pose;
-    float score;
-    std::size_t proposal;
-  };
-
-  static Look look(const Surfel_level& a, const Surfel_level& b, float times_height, float times_normal,
-                   float free_depth)
-  {
-    const float height = times_height * (std::max)(a.height_noise, b.height_noise),
-                turn = times_normal * (std::max)(a.normal_noise, b.normal_noise);
-    return {(std::max)(a.spacing, b.spacing) * (std::min)((std::max)(height, 0.05f), 1.f),
-            std::cos((std::min)((std::max)(turn, 0.2f), 0.7f)), free_depth};
-  }
-
-  // The poses after some steps of refinement on the coarse surfels, best first, no more than `number` of them.
-  std::vector<Refined> refined(const std::vector<Pose>& proposed, std::size_t number)
-  {
-    std::vector<Refined> all(proposed.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = {proposed[i], 0, i};
-    const Probes target_probes(m_target.coarse, 0, 200);
-    const auto refine = [&](std::size_t number_of_probes, std::initializer_list<float> reaches) {
-      const Probes source_probes(m_source.coarse, 0, number_of_probes);
-      for_each_index(m_execution, all.size(), m_control, [&](std::size_t i) {
-        Refined& r = all[i];
-        for (float reach : reaches)
-          if (refine_step(source_probes, m_target.coarse, {reach * m_spacing, 0.7f}, r.pose) < 6) break;
-        r.score =
-            agreement(m_source, source_probes, m_target, target_probes, m_target.coarse, r.pose, m_coarse_look).score();
-      });
-      std::stable_sort(all.begin(), all.end(), [](const Refined& a, const Refined& b) { return a.score > b.score; });
-    };
-    refine(200, {1.5f, 1.5f, 1.f});
-    if (all.size() > 4 * number) all.resize(4 * number);
-    refine(400, {1.f, 0.5f, 0.5f, 0.5f});
-    // Some from around each pose, as not all end in it; not all from around the best one, as it needs rivals.
-    constexpr auto most_of_one = 3;
-    std::vector<Refined> best;
-    for (const Refined& r : all) {
-      if (best.size() == number) break;
-      const auto count = [&](const auto& is_near) {
-        return std::count_if(best.begin(), best.end(), [&](const Refined& k) { return is_near(r.pose, k.pose); });
-      };
-      if (count([&](const Pose& x, const Pose& y) { return are_close(x, y, m_spacing); }) == 0 &&
-          count([&](const Pose& x, const Pose& y) { return are_one(x, y, m_extent); }) < most_of_one)
-        best.push_back(r);
-    }
-    return best;
-  }
-
   const Reduced_scan& m_source;
   const Reduced_scan& m_target;
   const Execution m_execution;
   Run_control& m_control;
   const Probes m_fine_source_probes, m_fine_target_probes;
-  float m_spacing = 0, m_extent = 0;
-  Look m_coarse_look, m_fine_look;
+  float m_extent = 0;
+  Look m_fine_look;
 };
 
 } // namespace internal

@@ -16,8 +16,8 @@
 
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
-#include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
+#include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
 #include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
@@ -108,13 +108,17 @@ public:
     narrow(candidates, 12, (std::max)(8 * round.kept, candidates.size() / 8), control);
     narrow(candidates, 40, 4 * round.kept, control);
     score(candidates, 100, 0, control);
-    proposals.judged = round.judged;
+    std::vector<Pose> kept;
     for (const Candidate& c : candidates) {
-      if (proposals.poses.size() == round.kept) break;
-      if (std::none_of(proposals.poses.begin(), proposals.poses.end(),
-                       [&](const Pose& p) { return Pose_judge::are_close(c.pose, p, m_spacing); }))
-        proposals.poses.push_back(c.pose);
+      if (kept.size() == round.kept) break;
+      if (std::none_of(kept.begin(), kept.end(), [&](const Pose& p) { return are_close(c.pose, p, m_spacing); }))
+        kept.push_back(c.pose);
     }
+    // A pair fixes its motion to some degrees only; all that agrees under it tells more.
+    for (const Estimated_pose& p : estimated_again(m_source, m_target, kept, round.judged, m_execution, control))
+      proposals.poses.push_back(p.pose);
+    proposals.are_estimated = true;
+    proposals.judged = round.judged;
     return true;
   }
 

@@ -56,6 +56,13 @@ inline std::vector<double> face_areas(const Flat_mesh& mesh, Run_control& contro
   return areas;
 }
 
+// Whether any face has an area.
+inline bool has_area(const Flat_mesh& mesh)
+{
+  return std::any_of(mesh.faces.begin(), mesh.faces.end(),
+                     [&](const auto& f) { return !area_vector(mesh, f).isZero(0); });
+}
+
 // Unit normals of the vertices; zero where no face of positive area is incident. The faces' normals are weighted by
 // sin(angle) / (product of the two edge lengths), which is exact on a sphere however it is triangulated (Max, "Weights
 // for computing vertex normals from facet normals", 1999), and is what Rusinkiewicz's curvatures build on.

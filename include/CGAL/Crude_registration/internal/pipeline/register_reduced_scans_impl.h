@@ -73,7 +73,7 @@ inline std::vector<Judged_pose> propose_and_judge(Candidate_source& candidates, 
     Proposals proposals;
     if (!candidates.next(control, proposals) || control.is_stopped()) return distinct;
     const Stage_timer timer(stage);
-    const std::vector<Judged_pose> judged = judge(proposals.poses, proposals.judged);
+    const std::vector<Judged_pose> judged = judge(proposals.poses, proposals.are_estimated, proposals.judged);
     if (control.is_stopped()) return distinct;
     stage.count += judged.size();
     for (const Judged_pose& p : judged) judge.add_distinct(p, distinct);
