@@ -13,3 +13,4 @@
 
 #include <CGAL/Crude_registration/internal/matching/Oriented_pair_candidates_impl.h>
 #include <CGAL/Crude_registration/internal/matching/Trihedron_candidates_impl.h>
+#include <CGAL/Crude_registration/internal/matching/flat_trihedra_impl.h>

@@ -358,7 +358,7 @@ BOOST_AUTO_TEST_CASE(meshes_described)
     check("spatial_trihedra", "mesh", [&] {
       for (const auto& t : CR::spatial_trihedra(mesh))
         for (const auto v : t.ends)
-          if (v < 0 || std::size_t(v) >= mesh.number_of_vertices()) return false;
+          if (!mesh.is_valid(v)) return false;
       return true;
     });
   });

@@ -8,7 +8,10 @@
 #define BOOST_TEST_MODULE match_trihedra
 #include <boost/test/unit_test.hpp>
 
+#include <CGAL/Crude_registration/internal/matching/flat_trihedra.h>
+#include <CGAL/Crude_registration/internal/reduction/Matching_vertices.h>
 #include <CGAL/Crude_registration/matching/match_trihedra.h>
+#include <CGAL/Crude_registration/reduction/scan_extent.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -29,13 +32,12 @@
 #include <vector>
 
 namespace CR = CGAL::Crude_registration;
-using CR::Spatial_trihedron;
-using CR::Vertex_pair_index;
 using CR::internal::Flat_mesh;
 using CR::internal::Match_tolerances;
 using CR::internal::Matching_vertices;
 using CR::internal::Matrix;
 using CR::internal::Rigid_motion;
+using CR::internal::Spatial_trihedron;
 using CR::internal::Trihedron_options;
 using CR::internal::Vector;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -63,9 +65,68 @@ std::set<Match> matches(const Matching_vertices& s, const std::vector<Spatial_tr
   return result;
 }
 
-double volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
+// More digits than the search has.
+using Long_vector = Eigen::Matrix<long double, 3, 1>;
+
+Long_vector to_long(const Vector& v)
 {
-  return (b - a).cross(c - a).dot(d - a);
+  return v.cast<long double>();
+}
+
+long double length(const Vector& p, const Vector& q)
+{
+  return (to_long(q) - to_long(p)).norm();
+}
+
+// Six times the volume of a tetrahedron, by the cofactors of a row.
+long double volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
+{
+  const Long_vector u = to_long(b) - to_long(a), v = to_long(c) - to_long(a), w = to_long(d) - to_long(a);
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+double angle_between(const Vector& a, const Vector& b)
+{
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+// How far the normals of two vertices are turned about the line from the one to the other: the difference of their
+// azimuths, from any direction at right angles to the line.
+double turn_about_line(const Vector& p, const Vector& np, const Vector& q, const Vector& nq)
+{
+  const Vector u = (q - p).normalized(), e = u.unitOrthogonal(), f = u.cross(e);
+  return std::atan2(nq.dot(f), nq.dot(e)) - std::atan2(np.dot(f), np.dot(e));
+}
+
+bool turns_agree(double a, double b, double tolerance)
+{
+  return std::abs(std::remainder(a - b, 2 * generated::pi)) <= tolerance;
+}
+
+// The barycentric coordinates of the projection of a point on the plane of a triangle.
+Vector coordinates(const Vector& a, const Vector& b, const Vector& c, const Vector& p)
+{
+  Matrix m;
+  m << b - a, c - a, (b - a).cross(c - a);
+  const Vector solution = m.inverse() * (p - a);
+  return Vector(1 - solution[0] - solution[1], solution[0], solution[1]);
+}
+
+// Whether y is rigidly x, as match_trihedra() promises.
+bool are_rigid(const std::array<Vector, 4>& x, const std::array<Vector, 4>& y, double tolerance)
+{
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::abs(length(x[i], x[j]) - length(y[i], y[j])) > (i == 1 ? tolerance : 2 * tolerance)) return false;
+  if (!(volume(x[0], x[1], x[2], x[3]) * volume(y[0], y[1], y[2], y[3]) > 0)) return false;
+  // The fourth vertex is on the same side of each edge: of the line through the other two vertices of the triangle.
+  const Vector there = coordinates(x[0], x[1], x[2], x[3]), here = coordinates(y[0], y[1], y[2], y[3]);
+  for (int k = 0; k < 3; ++k) {
+    const Vector &a = x[std::size_t((k + 1) % 3)], &b = x[std::size_t((k + 2) % 3)];
+    const double height = (x[std::size_t(k)] - a).cross(b - a).norm() / (b - a).norm();
+    if (std::abs(there[k]) * height > 2 * tolerance && there[k] * here[k] < 0) return false;
+  }
+  return true;
 }
 
 // Columns: along the line from p to q, towards the mean normal, and at right angles to both.
@@ -123,11 +184,11 @@ std::set<Match> by_brute_force(const Matching_vertices& s, const std::vector<Spa
       for (std::int32_t c1 = 0; c1 < n; ++c1) {
         if (c1 == c0 || !alike(v1, c1)) continue;
         const Vector b1 = D(c1) - D(c0);
-        if (!(std::abs(b1.norm() - a1.norm()) <= t.length)) continue; // on the sphere
-        if (t.use_normals &&
-            !Vertex_pair_index::agree(Vertex_pair_index::describe(S(V), s_normal(V), S(v1), s_normal(v1)),
-                                      Vertex_pair_index::describe(D(c0), d_normal(c0), D(c1), d_normal(c1)),
-                                      {float(t.length), float(t.angle), float(t.angle / sine)}))
+        if (!(std::abs(length(D(c0), D(c1)) - length(S(V), S(v1))) <= t.length)) continue; // on the sphere
+        if (t.use_normals && (std::abs(angle_between(b1, d_normal(c0)) - angle_between(a1, s_normal(V))) > t.angle ||
+                              std::abs(angle_between(b1, d_normal(c1)) - angle_between(a1, s_normal(v1))) > t.angle ||
+                              !turns_agree(turn_about_line(D(c0), d_normal(c0), D(c1), d_normal(c1)),
+                                           turn_about_line(S(V), s_normal(V), S(v1), s_normal(v1)), t.angle / sine)))
           continue;
         const Matrix image = frame_of_pair(D(c0), d_normal(c0), D(c1), d_normal(c1));
         for (std::int32_t c2 = 0; c2 < n; ++c2) {
@@ -139,9 +200,7 @@ std::set<Match> by_brute_force(const Matching_vertices& s, const std::vector<Spa
           if (t.use_normals) {
             const double turn = std::abs(std::remainder(std::atan2(local[2], local[1]) - azimuth, 2 * CGAL_PI));
             if (turn > 2 * t.angle / spread) continue;
-            if (generated::pi / 180 * 1e-9 + t.angle <
-                std::acos((std::min)(1., d_normal(c2).dot(image * pair_frame.transpose() * s_normal(v2)))))
-              continue;
+            if (angle_between(d_normal(c2), image * pair_frame.transpose() * s_normal(v2)) > t.angle) continue;
           }
           Matrix image_triangle;
           image_triangle << b1, b2, b1.cross(b2).normalized();
@@ -150,8 +209,8 @@ std::set<Match> by_brute_force(const Matching_vertices& s, const std::vector<Spa
               frame_of_triangle(D(c0), D(c1), D(c2)) * frame_of_triangle(S(V), S(v1), S(v2)).transpose();
           for (std::int32_t c3 = 0; c3 < n; ++c3) {
             if (!alike(v3, c3) || !((D(c3) - p).norm() <= t.length)) continue;
-            if (t.use_normals && std::acos((std::min)(1., d_normal(c3).dot(turn * s_normal(v3)))) > t.angle) continue;
-            if (volume(S(V), S(v1), S(v2), S(v3)) * volume(D(c0), D(c1), D(c2), D(c3)) > 0)
+            if (t.use_normals && angle_between(d_normal(c3), turn * s_normal(v3)) > t.angle) continue;
+            if (are_rigid({S(V), S(v1), S(v2), S(v3)}, {D(c0), D(c1), D(c2), D(c3)}, t.length))
               result.insert({std::int32_t(k), c0, c1, c2, c3});
           }
         }
@@ -193,22 +252,35 @@ double displacement(const Flat_mesh& mesh, const Rigid_motion& a, const Rigid_mo
   return largest;
 }
 
-Match indices(const CR::Trihedron_match<Kernel>& m)
+using Vertex = Mesh::Vertex_index;
+using Mesh_match = CR::Trihedron_match<Vertex, Vertex, Kernel>;
+
+std::int32_t index(Vertex v)
 {
-  return {m.source.origin, m.target.origin, m.target.ends[0], m.target.ends[1], m.target.ends[2]};
+  return std::int32_t(std::size_t(v));
+}
+
+std::array<std::int32_t, 4> indices(const CR::Spatial_trihedron<Vertex>& t)
+{
+  return {index(t.origin), index(t.ends[0]), index(t.ends[1]), index(t.ends[2])};
+}
+
+Match indices(const Mesh_match& m)
+{
+  const auto d = indices(m.target);
+  return {index(m.source.origin), d[0], d[1], d[2], d[3]};
 }
 
 // In an order that does not depend on the frame; that of the trihedra is kept.
 template <class NamedParameters>
-std::vector<CR::Trihedron_match<Kernel>> sorted_matches(const Flat_mesh& s, const Flat_mesh& d,
-                                                        const NamedParameters& np)
+std::vector<Mesh_match> sorted_matches(const Flat_mesh& s, const Flat_mesh& d, const NamedParameters& np)
 {
   const auto found = CR::match_trihedra(mesh_of<Mesh>(s), mesh_of<Mesh>(d), np);
   for (std::size_t i = 1; i < found.size(); ++i) BOOST_TEST(found[i - 1].source.origin <= found[i].source.origin);
   std::map<Match, std::size_t> order;
   for (std::size_t i = 0; i < found.size(); ++i) order[indices(found[i])] = i;
   BOOST_TEST(order.size() == found.size()); // none twice
-  std::vector<CR::Trihedron_match<Kernel>> result;
+  std::vector<Mesh_match> result;
   for (const auto& i : order) result.push_back(found[i.second]);
   return result;
 }
@@ -227,8 +299,8 @@ BOOST_AUTO_TEST_CASE(the_search_finds_what_brute_force_finds)
   const auto trihedra = CR::internal::spatial_trihedra(s.points, s.inside, arms(0.15, 0.5));
   BOOST_TEST_REQUIRE(trihedra.size() > 30u);
   for (bool use_normals : {true, false})
-    for (double length : {0.2, 0.6}) {
-      const Match_tolerances t = tolerances(source, length, use_normals);
+    for (double size : {0.2, 0.6}) {
+      const Match_tolerances t = tolerances(source, size, use_normals);
       const std::set<Match> found = matches(s, trihedra, d, t), wanted = by_brute_force(s, trihedra, d, t);
       BOOST_TEST_MESSAGE(wanted.size() << " matches");
       BOOST_TEST(wanted.size() > 10u); // or the test would say little
@@ -311,7 +383,8 @@ BOOST_AUTO_TEST_CASE(of_meshes_in_any_frame_unit_and_order)
   };
   const auto expected = sorted_matches(s, d, f(1));
   BOOST_TEST_REQUIRE(expected.size() > 30u);
-  for (double scale : {1., 1e-3, 1e3}) {
+  // Units that float does not hold, too.
+  for (double scale : {1., 1e-3, 1e3, 1e-42, 1e42}) {
     const Rigid_motion a = random.motion(2 * scale), b = random.motion(2 * scale);
     const auto found = sorted_matches(generated::moved(s, a, scale), generated::moved(d, b, scale), f(scale));
     BOOST_TEST_REQUIRE(found.size() == expected.size());
@@ -327,7 +400,7 @@ BOOST_AUTO_TEST_CASE(of_meshes_in_any_frame_unit_and_order)
   // The order of the target's vertices only changes that of the matches of a trihedron.
   const auto motions = [](const auto& found) {
     std::vector<std::array<double, 2>> result;
-    for (const auto& m : found) result.push_back({double(m.source.origin), m.residual});
+    for (const auto& m : found) result.push_back({double(std::size_t(m.source.origin)), m.residual});
     std::sort(result.begin(), result.end());
     return result;
   };
@@ -338,6 +411,37 @@ BOOST_AUTO_TEST_CASE(of_meshes_in_any_frame_unit_and_order)
     BOOST_TEST(shuffled[i][0] == wanted[i][0]);
     BOOST_TEST(std::abs(shuffled[i][1] - wanted[i][1]) < 1e-9);
   }
+}
+
+BOOST_AUTO_TEST_CASE(extents_of_the_axes)
+{
+  const Mesh mesh = mesh_of<Mesh>(generated::bumps(14));
+  const double extent = CR::scan_extent(mesh).mean();
+  const auto check = [&](const auto& np, double f1, double f2) {
+    // Those of spatial_trihedra() are matched, all of them in a copy, with arms within f1 M and f2 M.
+    const auto trihedra = CR::spatial_trihedra(mesh, np);
+    std::set<std::array<std::int32_t, 4>> wanted, found;
+    for (const auto& t : trihedra) wanted.insert(indices(t));
+    for (const Mesh_match& m : CR::match_trihedra(mesh, mesh, np)) {
+      if (m.source == m.target) found.insert(indices(m.source));
+      for (const auto& t : {m.source, m.target})
+        for (const Vertex e : t.ends) {
+          const double share = std::sqrt(CGAL::squared_distance(mesh.point(t.origin), mesh.point(e))) / extent;
+          // The source's exactly, the target's by twice the tolerance.
+          const double slack = t == m.source ? 0 : 1.4 * 0.09 / extent;
+          BOOST_TEST(share >= f1 - slack);
+          BOOST_TEST(share <= f2 + slack);
+        }
+    }
+    BOOST_TEST((found == wanted));
+    BOOST_TEST(wanted.size() > 50u);
+    return found;
+  };
+  const auto by_default = check(CR::parameters::default_values(), 0, 0.3);
+  // Each of the bounds is heard, for itself.
+  BOOST_TEST((check(CR::parameters::minimum_extent(0.2), 0.2, 0.3) != by_default));
+  BOOST_TEST((check(CR::parameters::maximum_extent(0.2), 0, 0.2) != by_default));
+  check(CR::parameters::minimum_extent(0.3).maximum_extent(0.6), 0.3, 0.6);
 }
 
 BOOST_AUTO_TEST_CASE(normals_and_curvatures_are_those_given)
@@ -361,9 +465,25 @@ BOOST_AUTO_TEST_CASE(normals_and_curvatures_are_those_given)
   t.length = 0.7 * CR::internal::median_edge_length(flat);
   t.angle = 15 * CGAL_PI / 180;
   t.curvature = 0.15 / t.length;
-  const auto wanted = CR::internal::match_trihedra(v, CR::spatial_trihedra(mesh), v, t);
-  BOOST_TEST_REQUIRE(found.size() == wanted.size());
-  for (std::size_t i = 0; i < found.size(); ++i) BOOST_TEST(found[i].target.origin == wanted[i].vertices[0]);
+  std::vector<Spatial_trihedron> trihedra;
+  for (const auto& x : CR::spatial_trihedra(mesh))
+    trihedra.push_back({index(x.origin), {index(x.ends[0]), index(x.ends[1]), index(x.ends[2])}});
+  const auto check = [&](const std::vector<Mesh_match>& some) {
+    const auto wanted = CR::internal::match_trihedra(v, trihedra, v, t);
+    BOOST_TEST_REQUIRE(some.size() == wanted.size());
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const Spatial_trihedron& x = trihedra[std::size_t(wanted[i].trihedron)];
+      const auto& y = wanted[i].vertices;
+      BOOST_TEST((indices(some[i].source) == std::array<std::int32_t, 4>{x.origin, x.ends[0], x.ends[1], x.ends[2]}));
+      BOOST_TEST((indices(some[i].target) == y));
+    }
+  };
+  check(found);
+  // Without normals there are more.
+  t.use_normals = false;
+  const auto by_curvatures = CR::match_trihedra(mesh, mesh, np.use_normals(false), np);
+  check(by_curvatures);
+  BOOST_TEST(by_curvatures.size() > found.size());
 
   // A target whose curvatures are all far away has no match, nor has one whose normals all point the other way.
   auto other = mesh.add_property_map<Mesh::Vertex_index, CR::Principal_curvatures<Kernel>>("v:other").first;

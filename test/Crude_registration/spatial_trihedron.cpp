@@ -8,8 +8,9 @@
 #define BOOST_TEST_MODULE spatial_trihedron
 #include <boost/test/unit_test.hpp>
 
+#include <CGAL/Crude_registration/internal/matching/flat_trihedra.h>
+#include <CGAL/Crude_registration/matching/spatial_trihedra.h>
 #include <CGAL/Crude_registration/reduction/scan_extent.h>
-#include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -28,8 +29,8 @@
 #include <vector>
 
 namespace CR = CGAL::Crude_registration;
-using CR::Spatial_trihedron;
 using CR::internal::Flat_mesh;
+using CR::internal::Spatial_trihedron;
 using CR::internal::Trihedron_options;
 using CR::internal::Vector;
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -143,11 +144,44 @@ BOOST_AUTO_TEST_CASE(coplanar_vertices_make_no_trihedron)
   const double reach = std::ldexp(1., 44);
   BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, reach)).empty());
 
-  // One step of one coordinate out of the plane is enough.
+  // One step of one coordinate out of the plane is enough for all of them, though in double other volumes, of rounding
+  // alone, are larger.
   points[7][2] = std::nextafter(points[7][2], reach);
   const auto trihedra = CR::internal::spatial_trihedra(points, all_inside(points), options(0, reach));
-  for (const Spatial_trihedron& t : trihedra)
+  BOOST_TEST(trihedra.size() == 40u);
+  bool is_smaller = false;
+  for (const Spatial_trihedron& t : trihedra) {
     BOOST_TEST((t.origin == 7 || std::find(t.ends.begin(), t.ends.end(), 7) != t.ends.end()));
+    const double chosen = std::abs(volume(points, t.origin, t.ends[0], t.ends[1], t.ends[2]));
+    for (std::int32_t i = 0; i < 40; ++i)
+      is_smaller = is_smaller || std::abs(volume(points, t.origin, t.ends[0], t.ends[1], i)) > chosen;
+  }
+  BOOST_TEST(is_smaller);
+}
+
+BOOST_AUTO_TEST_CASE(a_volume_that_double_does_not_see_makes_a_trihedron)
+{
+  // All vertices but one are nearer to a line than double can tell: consecutive Fibonacci numbers make triangles whose
+  // area is exactly 1/2 and 0 in double.
+  std::vector<Vector> points = {Vector(0, 0, 0)};
+  double a = 0, b = 1;
+  for (int i = 0; i < 62; ++i) {
+    const double c = a + b;
+    a = b;
+    b = c;
+    if (i > 57) points.emplace_back(b, a, 0);
+  }
+  for (std::size_t i = 2; i < points.size(); ++i) BOOST_TEST(points[i - 1].cross(points[i]).isZero(0));
+  points.emplace_back(2 * points.back()); // the one that is on a line with another one
+  const double reach = 4 * points.back().norm();
+  BOOST_TEST(CR::internal::spatial_trihedra(points, all_inside(points), options(0, reach)).empty());
+  // Only this one is not in their plane, by nothing that a volume in double would show.
+  points.emplace_back(1, -1, 1e-300);
+  const auto trihedra = CR::internal::spatial_trihedra(points, all_inside(points), options(0, reach));
+  BOOST_TEST(trihedra.size() == points.size());
+  for (const Spatial_trihedron& t : trihedra)
+    BOOST_TEST((t.origin == std::int32_t(points.size()) - 1 ||
+                std::find(t.ends.begin(), t.ends.end(), std::int32_t(points.size()) - 1) != t.ends.end()));
 }
 
 BOOST_AUTO_TEST_CASE(collinear_few_or_coincident_vertices_make_no_trihedron)
@@ -221,19 +255,54 @@ BOOST_AUTO_TEST_CASE(several_trihedra_a_vertex_at_several_scales)
 BOOST_AUTO_TEST_CASE(of_a_mesh_with_the_papers_shares)
 {
   const Flat_mesh flat = generated::bumps(20);
-  const Mesh mesh = mesh_of<Mesh>(flat);
+  Mesh mesh;
+  // Vertices in gaps between removed ones: a descriptor is not a position.
+  const std::vector<std::uint8_t> borders = CR::internal::border_flags(flat);
+  std::vector<Mesh::Vertex_index> handles;
+  std::vector<Mesh::Vertex_index> removed;
+  for (const Vector& p : flat.points) {
+    removed.push_back(mesh.add_vertex(Kernel::Point_3(9, 9, 9)));
+    handles.push_back(mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
+  }
+  for (const auto& f : flat.faces)
+    mesh.add_face(handles[std::size_t(f[0])], handles[std::size_t(f[1])], handles[std::size_t(f[2])]);
+  for (const Mesh::Vertex_index v : removed) mesh.remove_vertex(v);
+
   const double extent = CR::scan_extent(mesh).mean();
-  const auto trihedra = CR::spatial_trihedra(mesh, CR::parameters::minimum_extent(0.2).maximum_extent(0.5));
-  BOOST_TEST(!trihedra.empty());
-  const auto borders = CR::internal::border_flags(flat);
-  for (const Spatial_trihedron& t : trihedra) {
-    BOOST_TEST(borders[std::size_t(t.origin)] == 0);
-    for (std::int32_t e : t.ends) {
-      BOOST_TEST(borders[std::size_t(e)] == 0);
-      const double share = (flat.points[std::size_t(e)] - flat.points[std::size_t(t.origin)]).norm() / extent;
-      BOOST_TEST(share >= 0.2);
-      BOOST_TEST(share <= 0.5);
+  const auto length = [&](Mesh::Vertex_index v, Mesh::Vertex_index w) {
+    return std::sqrt(CGAL::squared_distance(mesh.point(v), mesh.point(w))) / extent;
+  };
+  // f1 and f2 are the bounds, or 0 and 0.3; each is met by more than half.
+  const auto check = [&](const auto& np, double f1, double f2) {
+    const auto trihedra = CR::spatial_trihedra(mesh, np);
+    BOOST_TEST(trihedra.size() > 100u);
+    double shortest = 9, longest = 0;
+    for (const CR::Spatial_trihedron<Mesh::Vertex_index>& t : trihedra) {
+      BOOST_TEST(!mesh.is_border(t.origin));
+      for (const Mesh::Vertex_index e : t.ends) {
+        BOOST_TEST(!mesh.is_border(e));
+        BOOST_TEST(length(t.origin, e) >= f1);
+        BOOST_TEST(length(t.origin, e) <= f2);
+        shortest = (std::min)(shortest, length(t.origin, e));
+        longest = (std::max)(longest, length(t.origin, e));
+      }
     }
+    BOOST_TEST(shortest < f1 + 0.5 * (f2 - f1));
+    BOOST_TEST(longest > f2 - 0.1 * (f2 - f1));
+  };
+  check(CR::parameters::default_values(), 0, 0.3);
+  check(CR::parameters::minimum_extent(0.2).maximum_extent(0.5), 0.2, 0.5);
+  check(CR::parameters::minimum_extent(0.2), 0.2, 0.3);
+  check(CR::parameters::maximum_extent(0.15), 0, 0.15);
+  // All trihedra are those of the flat mesh, whatever the vertices are called.
+  const auto found = CR::spatial_trihedra(mesh);
+  std::vector<std::uint8_t> inside(flat.points.size());
+  for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = !borders[i];
+  const auto wanted = CR::internal::spatial_trihedra(flat.points, inside, options(0, 0.3 * extent));
+  BOOST_TEST_REQUIRE(found.size() == wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    BOOST_TEST(found[i].origin == handles[std::size_t(wanted[i].origin)]);
+    for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(found[i].ends[k] == handles[std::size_t(wanted[i].ends[k])]);
   }
   Mesh empty;
   BOOST_TEST(CR::spatial_trihedra(empty).empty());

@@ -29,6 +29,7 @@
 #include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
 #include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
 #include <CGAL/Crude_registration/matching/match_trihedra.h>
+#include <CGAL/Crude_registration/matching/spatial_trihedra.h>
 #include <CGAL/Crude_registration/motion/refine_motion.h>
 #include <CGAL/Crude_registration/motion/rigid_motion.h>
 #include <CGAL/Crude_registration/named_parameters.h>

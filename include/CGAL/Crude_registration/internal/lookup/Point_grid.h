@@ -15,6 +15,7 @@
 // Points in the cells of a grid: those within a radius, and the pairs of them.
 
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/lookup/Bins.h>
 
 #include <algorithm>
 #include <array>
@@ -27,8 +28,8 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// Points in the cells of a uniform grid (counting sort, flat arrays): everything within a distance of a place. Cells
-// get larger than asked for where they would outnumber the points 64 to one, so memory stays linear.
+// The cells of a uniform grid. They get larger than asked for where they would outnumber the points 64 to one, so that
+// memory stays linear.
 class Point_grid
 {
 public:
@@ -51,17 +52,12 @@ public:
     m_scale = 1 / cell_size;
     for (std::size_t i = 0; i < 3; ++i) m_cells[i] = std::int32_t(size[Eigen::Index(i)] * m_scale) + 1;
 
-    m_begin.assign(std::size_t(m_cells[0]) * std::size_t(m_cells[1]) * std::size_t(m_cells[2]) + 1, 0);
-    std::vector<std::size_t> cell_of(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      cell_of[i] = cell(coordinate(0, points[i]), coordinate(1, points[i]), coordinate(2, points[i]));
-      ++m_begin[cell_of[i] + 1];
-    }
-    for (std::size_t i = 1; i < m_begin.size(); ++i) m_begin[i] += m_begin[i - 1];
-    m_entries.resize(points.size());
-    std::vector<std::int32_t> next(m_begin.begin(), m_begin.end() - 1);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      m_entries[std::size_t(next[cell_of[i]]++)] = {points[i], std::int32_t(i)};
+    m_entries =
+        Bins<Entry>(std::size_t(m_cells[0]) * std::size_t(m_cells[1]) * std::size_t(m_cells[2]), [&](const auto& add) {
+          for (std::size_t i = 0; i < points.size(); ++i)
+            add(cell(coordinate(0, points[i]), coordinate(1, points[i]), coordinate(2, points[i])),
+                Entry{points[i], std::int32_t(i)});
+        });
   }
 
   // f(index, squared distance) for every point within `radius` of p, in an order fixed by the points alone.
@@ -77,8 +73,9 @@ public:
   void for_each_pair_within(double radius, Function&& f) const
   {
     bool go_on = true;
-    for (std::size_t e = 0; e < m_entries.size() && go_on; ++e) {
-      const Entry& first = m_entries[e];
+    const std::vector<Entry>& entries = m_entries.items();
+    for (std::size_t e = 0; e < entries.size() && go_on; ++e) {
+      const Entry& first = entries[e];
       for_each_row(first.point, radius, [&](std::size_t from, std::size_t to) {
         for_each_of(first.point, radius, (std::max)(from, e + 1), to,
                     [&](std::int32_t j, double d) { go_on = go_on && f(first.index, j, d); });
@@ -108,7 +105,7 @@ private:
     // The cells of a row follow each other, and so do their entries.
     for (std::int32_t z = from[2]; z <= to[2]; ++z)
       for (std::int32_t y = from[1]; y <= to[1]; ++y)
-        f(std::size_t(m_begin[cell(from[0], y, z)]), std::size_t(m_begin[cell(to[0], y, z) + 1]));
+        f(m_entries.begin(cell(from[0], y, z)), m_entries.end(cell(to[0], y, z)));
   }
 
   // f(index, squared distance) for those of the entries that are within `radius` of p. Which are cannot be foretold:
@@ -123,8 +120,8 @@ private:
       const std::size_t end = (std::min)(to, from + most);
       std::size_t n = 0;
       for (; from < end; ++from) {
-        indices[n] = m_entries[from].index;
-        distances[n] = (m_entries[from].point - p).squaredNorm();
+        indices[n] = m_entries.items()[from].index;
+        distances[n] = (m_entries.items()[from].point - p).squaredNorm();
         n += distances[n] <= radius * radius;
       }
       for (std::size_t k = 0; k < n; ++k) f(indices[k], distances[k]);
@@ -144,8 +141,7 @@ private:
   Vector m_low = Vector::Zero();
   double m_scale = 1;
   std::array<std::int32_t, 3> m_cells{};
-  std::vector<std::int32_t> m_begin;
-  std::vector<Entry> m_entries;
+  Bins<Entry> m_entries;
 };
 
 } // namespace internal

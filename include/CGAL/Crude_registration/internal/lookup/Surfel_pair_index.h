@@ -12,58 +12,46 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_PAIR_INDEX_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_LOOKUP_SURFEL_PAIR_INDEX_H
 
-#include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>
+// Pairs of surfels of one length by their angles and curvatures: for the search for pairs of oriented points.
+
+#include <CGAL/Crude_registration/internal/lookup/Bins.h>
+#include <CGAL/Crude_registration/internal/lookup/Packed_ranges.h>
 #include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
-#include <CGAL/Crude_registration/internal/base/fast_angles.h>
+#include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>
+#include <CGAL/Crude_registration/internal/lookup/pair_angles.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// Two surfels as seen from each other: the angles between their normals and the line from the first to the second, and
-// the signed turn about that line from the first normal to the second. With the length of the line all that a rigid
-// motion leaves of two points with normals.
-struct Pair_angles
-{
-  float first, second, turn; // radians: [0, pi], [0, pi], [-pi, pi]
-};
-
-// The cosines of those angles; that of the turn and its sine have a common factor.
-struct Pair_cosines
-{
-  float first, second, turn, sine_of_turn;
-
-  // Seen from the other end the angles are supplements and the turn is the same.
-  Pair_cosines reversed() const { return {-second, -first, turn, sine_of_turn}; }
-};
-
-// False where a normal is so close to the line that the turn means nothing, or there is no line.
-inline bool pair_cosines(const Surfel& a, const Surfel& b, Pair_cosines& cosines)
+// The angles of two surfels as cosines. False where a normal is so close to the line that the turn means nothing, or
+// there is no line.
+inline bool pair_cosines(const Surfel& a, const Surfel& b, Pair_cosines<float>& cosines)
 {
   Vector_f d = b.position - a.position;
   const float length = d.norm();
   if (!(length > 0)) return false;
   d *= 1 / length;
-  const float ca = a.normal.dot(d), cb = b.normal.dot(d);
+  cosines = pair_cosines(d, a.normal, b.normal);
   constexpr float most = 0.98f;
-  if (!(std::abs(ca) < most && std::abs(cb) < most)) return false;
-  // Of the parts of the normals that are perpendicular to the line.
-  cosines = {ca, cb, a.normal.dot(b.normal) - ca * cb, d.dot(a.normal.cross(b.normal))};
-  return true;
+  return std::abs(cosines.first) < most && std::abs(cosines.second) < most;
 }
 
 inline bool pair_angles(const Surfel& a, const Surfel& b, Pair_angles& angles)
 {
-  Pair_cosines c;
+  Pair_cosines<float> c;
   if (!pair_cosines(a, b, c)) return false;
-  angles.first = float(fast_acos(double(c.first)));
-  angles.second = float(fast_acos(double(c.second)));
-  angles.turn = float(fast_atan2(double(c.sine_of_turn), double(c.turn)));
+  angles = c.angles();
   return true;
 }
 
@@ -113,21 +101,12 @@ public:
       low[i] = std::uint8_t((std::max)(int(middle.values[i]) - tolerance, 0));
       high[i] = std::uint8_t((std::min)(int(middle.values[i]) + tolerance, 255));
     }
-    m_low = spread(low);
-    m_high = spread(high) | top;
+    m_ranges = {spread(low), spread(high) - spread(low)};
   }
 
-  // All four at once: a difference of 16 bits does not borrow from the next one while the top bit of its minuend is
-  // set, and leaves it set where it is not negative.
-  bool contains(const Pair_curvatures& curvatures) const
-  {
-    const std::uint64_t c = spread(curvatures.values);
-    return (((c | top) - m_low) & (m_high - c) & top) == top;
-  }
+  bool contains(const Pair_curvatures& curvatures) const { return m_ranges.contains(spread(curvatures.values)); }
 
 private:
-  static constexpr std::uint64_t top = 0x8000800080008000;
-
   // Each byte in 16 bits of its own, in whichever order.
   static std::uint64_t spread(const std::array<std::uint8_t, 4>& bytes)
   {
@@ -136,12 +115,15 @@ private:
     return (all & 0x00ff00ffu) | std::uint64_t(all & 0xff00ff00u) << 24;
   }
 
-  std::uint64_t m_low, m_high;
+  Packed_ranges<16> m_ranges{0, 0};
 };
 
 // All ordered pairs of surfels of a scan whose distance is within `half_width` of `length`, by their angles: one
 // look-up finds the pairs (C, c1) that may correspond to a pair (V, v1), the sphere of the paper's section 6 with the
 // signed angles of the spatial descriptor.
+//
+// A Vertex_pair_index does the same for all lengths of a range, with tolerances of its own for each question. It takes
+// FIGURE
 class Surfel_pair_index
 {
 public:
@@ -168,32 +150,27 @@ public:
     // a speck, does not find them all.
     constexpr std::size_t most = 1000000;
     std::vector<Found_pair> pairs;
-    m_offsets.assign(bins + 1, 0);
     grid.for_each_pair_within(double(length + half_width), [&](std::int32_t i, std::int32_t j, double d2) {
-      Pair_cosines c;
+      Pair_cosines<float> c;
       if (d2 < least || !pair_cosines(surfels[std::size_t(i)], surfels[std::size_t(j)], c)) return true;
-      const std::size_t b = bin(c), r = bin(c.reversed());
-      ++m_offsets[b + 1];
-      ++m_offsets[r + 1];
-      pairs.push_back({std::uint16_t(i), std::uint16_t(j), std::uint16_t(b), std::uint16_t(r)});
+      pairs.push_back({std::uint16_t(i), std::uint16_t(j), std::uint16_t(bin(c)), std::uint16_t(bin(c.reversed()))});
       return pairs.size() < most;
     });
-    for (std::size_t b = 0; b < bins; ++b) m_offsets[b + 1] += m_offsets[b];
-    m_entries.resize(2 * pairs.size());
     std::vector<std::array<std::uint8_t, 2>> curvatures;
     curvatures.reserve(surfels.size());
     for (const Surfel& s : surfels)
       curvatures.push_back(
           {Pair_curvatures::quantise(s.minimal_curvature), Pair_curvatures::quantise(s.maximal_curvature)});
-    std::vector<std::uint32_t> next(m_offsets.begin(), m_offsets.end() - 1);
-    for (const Found_pair& p : pairs) {
-      const auto &k = curvatures[p.first], &l = curvatures[p.second];
-      m_entries[next[p.bin]++] = {{{k[0], k[1], l[0], l[1]}}, p.first, p.second};
-      m_entries[next[p.reversed_bin]++] = {{{l[0], l[1], k[0], k[1]}}, p.second, p.first};
-    }
+    m_entries = Bins<Entry>(bins, [&](const auto& add) {
+      for (const Found_pair& p : pairs) {
+        const auto &k = curvatures[p.first], &l = curvatures[p.second];
+        add(p.bin, Entry{{{k[0], k[1], l[0], l[1]}}, p.first, p.second});
+        add(p.reversed_bin, Entry{{{l[0], l[1], k[0], k[1]}}, p.second, p.first});
+      }
+    });
   }
 
-  std::size_t size() const { return m_entries.size(); }
+  std::size_t size() const { return m_entries.items().size(); }
 
   // f(begin, end) for the runs of entries whose angles are close to `angles`: in each of the three the bin it is in and
   // the nearer neighbour.
@@ -206,7 +183,8 @@ public:
         if (j < 0 || j >= angle_bins) continue;
         for (const int k : two_bins((angles.turn + pi) * (float(turn_bins) / (2 * pi)))) {
           const std::size_t c = bin(i, j, (k + turn_bins) % turn_bins);
-          f(m_entries.data() + m_offsets[c], m_entries.data() + m_offsets[c + 1]);
+          const Entry* const entries = m_entries.items().data();
+          f(entries + m_entries.begin(c), entries + m_entries.end(c));
         }
       }
     }
@@ -251,13 +229,12 @@ private:
     if (cosine < 0) b = turn_bins / 2 - 1 - b;
     return sine < 0 ? turn_bins / 2 - 1 - b : turn_bins / 2 + b;
   }
-  static std::size_t bin(const Pair_cosines& c)
+  static std::size_t bin(const Pair_cosines<float>& c)
   {
     return bin(angle_bin(c.first), angle_bin(c.second), turn_bin(c.turn, c.sine_of_turn));
   }
 
-  std::vector<std::uint32_t> m_offsets;
-  std::vector<Entry> m_entries;
+  Bins<Entry> m_entries;
 };
 
 } // namespace internal

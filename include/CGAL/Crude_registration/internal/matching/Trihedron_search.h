@@ -18,11 +18,12 @@
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
+#include <CGAL/Crude_registration/internal/matching/Trihedron_matching.h>
 #include <CGAL/Crude_registration/internal/matching/extents.h>
+#include <CGAL/Crude_registration/internal/matching/flat_trihedra.h>
 #include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
 #include <CGAL/Crude_registration/internal/motion/point_to_plane.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
-#include <CGAL/Crude_registration/matching/match_trihedra.h>
 
 #include <algorithm>
 #include <array>

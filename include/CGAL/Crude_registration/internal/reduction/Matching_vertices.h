@@ -14,6 +14,7 @@
 
 #include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -85,30 +86,19 @@ inline Matching_vertices matching_vertices(const Flat_mesh& simplified, const Fl
     const Vector normal = unit_or_zero(mean_normal);
     if (normal.isZero(0)) continue;
     const Vector u = normal.unitOrthogonal(), v = normal.cross(u);
-    double a = 0, b = 0, c = 0, r0 = 0, r1 = 0, r2 = 0;
+    Second_fundamental_form_fit fit;
     for (std::int32_t j : found) {
       if (!(dense_normals[std::size_t(j)].dot(near_normal) > 0)) continue;
       const Vector x = dense.points[std::size_t(j)] - centre - mean_point;
       const Vector y = dense_normals[std::size_t(j)] - mean_normal;
-      const double xu = x.dot(u), xv = x.dot(v), yu = y.dot(u), yv = y.dot(v);
-      a += xu * xu;
-      b += xu * xv;
-      c += xv * xv;
-      r0 += xu * yu;
-      r1 += xu * yv + xv * yu;
-      r2 += xv * yv;
+      fit.add(x.dot(u), x.dot(v), y.dot(u), y.dot(v));
     }
-    // [a b 0; b a+c b; 0 b c] (uu, uv, vv)^T = r; a neighbourhood on one line determines no form.
-    const double minor = a * c - b * b, trace = a + c;
-    if (!(minor > 1e-6 * trace * trace)) continue;
-    const double scale = 1 / (trace * minor);
-    const double uu = ((minor + c * c) * r0 - b * c * r1 + b * b * r2) * scale;
-    const double uv = (a * c * r1 - b * (c * r0 + a * r2)) * scale;
-    const double vv = ((minor + a * a) * r2 - a * b * r1 + b * b * r0) * scale;
-    const double mean = (uu + vv) / 2, deviation = std::hypot((uu - vv) / 2, uv);
+    // A neighbourhood on one line determines no form.
+    if (!(fit.minor() > 1e-6 * fit.trace() * fit.trace())) continue;
+    const Curvature_tensor form = fit.solved(fit.minor());
     result.normals[i] = normal;
-    result.minimum_curvatures[i] = mean - deviation;
-    result.maximum_curvatures[i] = mean + deviation;
+    result.minimum_curvatures[i] = form.minimum();
+    result.maximum_curvatures[i] = form.maximum();
     result.inside[i] = !borders[i];
   }
   return result;
