@@ -37,7 +37,6 @@ namespace CR = CGAL::Crude_registration;
 using benchmark_tools::Generated_scene;
 using Kernel = Generated_scene::Kernel;
 using Mesh = Generated_scene::Mesh;
-using CR::internal::Flat_mesh;
 
 namespace {
 
@@ -46,7 +45,6 @@ struct Input
 {
   Generated_scene::Simulated_scan source, target;
   Mesh source_mesh, target_mesh;
-  Flat_mesh flat;
   double sampling_distance;
   CR::Scan<Kernel> source_scan, target_scan;
   CR::internal::Rigid_motion truth;
@@ -57,7 +55,6 @@ struct Input
   {
     CR::triangulate_range_image(source.image, source_mesh);
     CR::triangulate_range_image(target.image, target_mesh);
-    flat = CR::internal::to_flat_mesh(source_mesh, CR::parameters::default_values(), "kernels", "mesh");
     truth = CR::internal::to_rigid_motion(target.scene_from_scan.inverse() * source.scene_from_scan);
   }
 

@@ -46,9 +46,10 @@ inline Flat_mesh simplify_by_groups(Flat_mesh mesh, double cell, const Simplific
   const Vector centre = centre_of_box(mesh.points), new_centre = frame(centre);
   for (Vector& p : mesh.points) p = frame.rotation * (p - centre) + new_centre;
 
-  // Half of the error that is allowed is left to the collapse; where a number of vertices may be what stops it, no
-  // error is known before. As many are left as without (table_1_reduction), in half the time.
-  const bool is_error_known = limits.number_of_vertices == 0;
+  // Half of the error that is allowed is left to the collapse, which then leaves as many vertices as from the smallest
+  // groups. Where a number of vertices stops it, the error is not known before.
+  const bool is_error_known =
+      limits.number_of_vertices == 0 && limits.mean_squared_distance < (std::numeric_limits<double>::max)();
   const Grouped_mesh groups = group_by_cells(mesh, cell, is_error_known ? limits.mean_squared_distance / 2 : 0);
   CGAL::Surface_mesh<Point> surface;
   add_flat_mesh(groups.mesh, surface, parameters::default_values());

@@ -49,17 +49,27 @@ inline double noise(const Surfel_level& level)
   return double(level.spacing) * (std::max)(double(level.height_noise), 0.02);
 }
 
-// The share of a scan's surface that has the other one close by, facing the same way. `pose`: target from source.
+// The share of a scan's surface that has the other one close by, facing the same way. `pose`: target from source. Close
+// by is within half the diagonal of a surfel's cell: the field alone reaches beyond the border of the surface by twice
+// that.
 inline double overlap(const Reduced_scan& source, const Reduced_scan& target, const Pose& pose)
 {
-  std::vector<Surfel> some;
-  for (const std::int32_t i : shuffled(source.fine.surfels.size(), 3)) {
-    if (some.size() == 3000) break;
-    some.push_back(source.fine.surfels[std::size_t(i)]);
+  constexpr std::size_t most = 3000;
+  constexpr float minimal_cosine = 0.7f, half_diagonal = 0.8660254f; // sqrt(3) / 2
+  const std::size_t n = (std::min)(most, source.fine.surfels.size());
+  const float reach = half_diagonal * (std::max)(source.fine.spacing, target.fine.spacing);
+  const std::vector<std::int32_t> order = shuffled(source.fine.surfels.size(), 3);
+  std::size_t close = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Surfel& s = source.fine.surfels[std::size_t(order[i])];
+    const Vector_f p = pose(s.position);
+    const int j = target.fine.field.nearest(p);
+    if (j < 0) continue;
+    const Surfel& t = target.fine.surfels[std::size_t(j)];
+    close += std::size_t(int((p - t.position).squaredNorm() <= reach * reach) &
+                         int((pose.rotation * s.normal).dot(t.normal) >= minimal_cosine));
   }
-  const float spacing = (std::max)(source.fine.spacing, target.fine.spacing);
-  return double(
-      agreement(source, some, target, std::vector<Surfel>(), target.fine, pose, {spacing, 0.7f, spacing}).overlap);
+  return n > 0 ? double(close) / double(n) : 0;
 }
 
 // Rounds of proposals, judged, until one pose is certain or there are no more: the distinct poses, best first. Those of
