@@ -10,8 +10,10 @@
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
+#include <CGAL/Crude_registration/reduction/scan_extent.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
 #include <CGAL/Crude_registration/reduction/surface_types.h>
+#include <CGAL/Crude_registration/sampling/sampling_distance.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Simple_cartesian.h>

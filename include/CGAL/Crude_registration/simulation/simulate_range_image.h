@@ -23,6 +23,7 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <cmath>
 #include <cstddef>
