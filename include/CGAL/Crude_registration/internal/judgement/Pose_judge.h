@@ -86,13 +86,19 @@ public:
     return judged.size() == 1 || judged[1].score() < 0.4f * judged.front().score();
   }
 
-  // Keeps `judged` sorted and its poses distinct: the best of each.
-  void add_distinct(const Judged_pose& pose, std::vector<Judged_pose>& judged) const
+  // Keeps `judged` sorted and its poses distinct: of each the best, with the proposal that is nearest to it of those
+  // that have led there.
+  void add_distinct(Judged_pose pose, std::vector<Judged_pose>& judged) const
   {
-    const auto same = [&](const Judged_pose& other) { return are_one(pose.pose, other.pose, m_extent); };
-    for (const Judged_pose& other : judged)
-      if (other.score() >= pose.score() && same(other)) return;
-    judged.erase(std::remove_if(judged.begin(), judged.end(), same), judged.end());
+    const auto is_same = [&](const Judged_pose& other) { return are_one(pose.pose, other.pose, m_extent); };
+    for (Judged_pose& other : judged) {
+      if (!is_same(other)) continue;
+      const Judged_pose& better = other.score() >= pose.score() ? other : pose;
+      other.proposed = pose.proposed =
+          is_nearer(pose.proposed, other.proposed, better.pose, m_extent) ? pose.proposed : other.proposed;
+      if (&better == &other) return;
+    }
+    judged.erase(std::remove_if(judged.begin(), judged.end(), is_same), judged.end());
     judged.insert(std::find_if(judged.begin(), judged.end(),
                                [&](const Judged_pose& other) { return other.score() < pose.score(); }),
                   pose);

@@ -103,8 +103,12 @@ Agreement agreement(const Reduced_scan& source, const Source_probes& source_prob
     const int j = level.field.nearest(p);
     if (j >= 0) {
       const Surfel& t = level.surfels[std::size_t(j)];
-      agreeing += std::size_t(int(std::abs(t.normal.dot(p - t.position)) <= look.distance) &
-                              int((pose.rotation * s.normal).dot(t.normal) >= look.minimal_cosine));
+      // What agrees is on the surface that was seen, though it may be before it along a grazing line of sight.
+      if (std::abs(t.normal.dot(p - t.position)) <= look.distance &&
+          (pose.rotation * s.normal).dot(t.normal) >= look.minimal_cosine) {
+        ++agreeing;
+        continue;
+      }
     }
     if (target_is_known) before_target += target.depths.in_front(p) > look.free_depth;
   }

@@ -81,6 +81,16 @@ inline bool are_one(const Pose& a, const Pose& b, float extent)
   return trace > 1 + 2 * 0.985f && (a.translation - b.translation).norm() < 0.05f * extent;
 }
 
+// Which of two poses is nearer to a third one, turns being measured by what they move at half the extent.
+inline bool is_nearer(const Pose& a, const Pose& b, const Pose& to, float extent)
+{
+  const auto distance = [&](const Pose& p) {
+    const float r = 0.5f * extent;
+    return r * r * (p.rotation - to.rotation).squaredNorm() + (p.translation - to.translation).squaredNorm();
+  };
+  return distance(a) < distance(b);
+}
+
 // Poses that a few correspondences have given, estimated again from all of the coarse surfels that agree under them:
 // the best `number` of them, with no more than a few from around each place.
 inline std::vector<Estimated_pose> estimated_again(const Reduced_scan& source, const Reduced_scan& target,
@@ -106,6 +116,11 @@ inline std::vector<Estimated_pose> estimated_again(const Reduced_scan& source, c
         count([&](const Pose& x, const Pose& y) { return are_one(x, y, extent); }) < most_of_one)
       best.push_back(p);
   }
+  // Where several have led to one place, the nearest is what has been proposed.
+  for (Estimated_pose& k : best)
+    for (const Estimated_pose& p : all)
+      if (are_one(p.pose, k.pose, extent) && is_nearer(proposed[p.index], proposed[k.index], k.pose, extent))
+        k.index = p.index;
   return best;
 }
 

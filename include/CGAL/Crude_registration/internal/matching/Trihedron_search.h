@@ -94,8 +94,7 @@ public:
   bool next(Run_control& control, Proposals& proposals) override
   {
     const std::size_t passes = m_parameters.passes.size();
-    while (m_next_pass < passes && m_spacing > m_parameters.passes[m_next_pass].spacing * m_source.extent)
-      ++m_next_pass;
+    while (m_next_pass < passes && m_spacing > m_parameters.passes[m_next_pass].spacing * m_s.extent) ++m_next_pass;
     if (m_next_pass == passes || m_source_probes.empty() || m_target_probes.empty()) return false;
     const Trihedron_pass& pass = m_parameters.passes[m_next_pass++];
     const Stage_timer timer(m_rounds);
@@ -229,8 +228,8 @@ private:
   {
     const Stage_timer timer(m_trihedra);
     Trihedron_options options;
-    options.minimum_length = m_parameters.minimum_extent * m_source.extent;
-    options.maximum_length = m_parameters.maximum_extent * m_source.extent;
+    options.minimum_length = m_parameters.minimum_extent * m_s.extent;
+    options.maximum_length = m_parameters.maximum_extent * m_s.extent;
     options.scales = pass.scales;
     options.trihedra_per_scale = pass.trihedra_per_scale;
     std::vector<Spatial_trihedron> trihedra = spatial_trihedra(m_s.vertices.points, m_s.vertices.inside, options);

@@ -24,6 +24,7 @@ struct Simplified_scan
 {
   Matching_vertices vertices; // in the own frame of the reduced scan
   double spacing = 0;         // the median distance of neighbours
+  double extent = 0;          // M of the paper: of a range image along the axes of its grid
   double description_radius = 0;
 };
 

@@ -29,6 +29,8 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -38,14 +40,9 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// The paper's approximation error of a scan of sampling distance `s`.
-inline double error_of_scan(const Flat_mesh& dense, const Flat_sensor& sensor, const Flat_range_image* image, double s)
-{
-  const Vector extent = image ? extent_of_image(*image, dense) : extent_of_mesh(dense, sensor);
-  return approximation_error(s, (std::max)(extent.x(), extent.y()), percent_smooth(dense));
-}
-
-// `mesh`: as of simplify_scan(), in coordinates of which rounding takes nothing. \throws Run_control::Stopped
+// As of simplify_scan(), in coordinates of which rounding takes nothing. Each sample that the sensor lost leaves a
+// hole, no wider than `largest_hole`, that no collapse closes: three vertices at least stay on its border. Where most
+// of the vertices would, the holes are closed first. \throws Run_control::Stopped
 inline Flat_mesh simplified(const Flat_mesh& dense, double cell, double largest_hole,
                             const Simplification_limits& limits)
 {
@@ -54,19 +51,23 @@ inline Flat_mesh simplified(const Flat_mesh& dense, double cell, double largest_
   const Vector centre = centre_of_box(dense.points);
   Flat_mesh centred = dense;
   for (Vector& p : centred.points) p -= centre;
-  Mesh mesh;
-  add_flat_mesh(centred, mesh, parameters::default_values());
-  // A sample that the sensor lost leaves a hole, whose vertices would all be on a border, and no collapse closes it.
-  fill_small_holes(mesh, mesh.points(), largest_hole);
-  if (cell > 0) {
-    centred = simplify_by_groups(to_flat_mesh(mesh, parameters::default_values(), "simplified", "mesh"), cell, limits);
-  } else {
+  const auto simplify = [&](Mesh mesh) {
+    if (cell > 0)
+      return simplify_by_groups(to_flat_mesh(mesh, parameters::default_values(), "simplified", "mesh"), cell, limits);
     const Mean_squared_distance_policies<Mesh, CGAL::Simple_cartesian<double>> policies(mesh);
     collapse_edges(mesh, mesh.points(), mesh.number_of_vertices(), limits, policies);
-    centred = to_flat_mesh(mesh, parameters::default_values(), "simplified", "mesh");
+    return to_flat_mesh(mesh, parameters::default_values(), "simplified", "mesh");
+  };
+  Mesh mesh;
+  add_flat_mesh(centred, mesh, parameters::default_values());
+  Flat_mesh simple = simplify(mesh);
+  const auto holes = small_holes(mesh, mesh.points(), largest_hole);
+  if (2 * 3 * holes.size() > simple.points.size()) {
+    fill_holes(mesh, mesh.points(), holes);
+    simple = simplify(std::move(mesh));
   }
-  for (Vector& p : centred.points) p += centre;
-  return centred;
+  for (Vector& p : simple.points) p += centre;
+  return simple;
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE std::shared_ptr<const Simplified_scan>
@@ -75,12 +76,14 @@ simplify_flat_scan(const Flat_mesh& dense, const Flat_sensor& sensor, const Flat
 {
   control.check();
   const double s = image ? sampling(*image, control).distance : median_edge_length(dense);
+  const Vector extent = image ? extent_of_image(*image, dense) : extent_of_mesh(dense, sensor);
   Simplification_limits limits;
   limits.control = &control;
   limits.number_of_vertices = options.number_of_vertices.value_or(0);
   limits.mean_squared_distance = (std::numeric_limits<double>::max)();
   if (options.approximation_error) limits.mean_squared_distance = *options.approximation_error;
-  else if (!options.number_of_vertices) limits.mean_squared_distance = error_of_scan(dense, sensor, image, s);
+  else if (!options.number_of_vertices)
+    limits.mean_squared_distance = approximation_error(s, (std::max)(extent.x(), extent.y()), percent_smooth(dense));
   // What is no further apart than samples are joined.
   const Flat_mesh simple = simplified(dense, options.cell_size, default_maximum_edge_ratio * s, limits);
   control.check();
@@ -93,6 +96,7 @@ simplify_flat_scan(const Flat_mesh& dense, const Flat_sensor& sensor, const Flat
   for (Vector& p : result->vertices.points) p = scan.own_from_input(p);
   for (Vector& n : result->vertices.normals) n = scan.own_from_input.rotation * n;
   result->spacing = median_edge_length(simple);
+  result->extent = extent.sum() / 3;
   return result;
 }
 
