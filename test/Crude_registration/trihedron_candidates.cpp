@@ -286,7 +286,7 @@ BOOST_AUTO_TEST_CASE(parameters_of_the_search)
   // And so do larger tolerances.
   const double edge = target.reduced().simplified->spacing;
   std::size_t last = 0;
-  for (const double share : {1e-4, 0.35, 0.7, 1.}) {
+  for (const double share : {1e-4, 0.7, 1.}) {
     const std::size_t n = in_first_round(p::tolerance(share * edge).use_normals(false), "propose: matches");
     BOOST_TEST((share == 1e-4 ? n == 0 : n > last), "tolerance " << share << " edges: " << n << " after " << last);
     last = n;
