@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,24 @@ inline double noise(const Surfel_level& level)
   return double(level.spacing) * (std::max)(double(level.height_noise), 0.02);
 }
 
+// The square of the distance to the nearest surfel of a level; `nearest` is its index, or none. The field tells what is
+// nearest to the middle of a voxel: those around know what is nearest to the place.
+inline float nearest_surfel(const Surfel_level& level, const Vector_f& place, int& nearest)
+{
+  float least = (std::numeric_limits<float>::max)();
+  nearest = Surfel_field::none;
+  for (int k = 0; k < 27; ++k) {
+    const Vector_f step(float(k % 3 - 1), float(k / 3 % 3 - 1), float(k / 9 - 1));
+    const int i = level.field.nearest(place + level.spacing * step);
+    if (i < 0) continue;
+    const float square = (place - level.surfels[std::size_t(i)].position).squaredNorm();
+    if (square >= least) continue;
+    least = square;
+    nearest = i;
+  }
+  return least;
+}
+
 // The share of a scan's surface that has the other one close by, facing the same way. `pose`: target from source. Close
 // by is within half the diagonal of a surfel's cell: the field alone reaches beyond the border of the surface by twice
 // that.
@@ -62,12 +81,9 @@ inline double overlap(const Reduced_scan& source, const Reduced_scan& target, co
   std::size_t close = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Surfel& s = source.fine.surfels[std::size_t(order[i])];
-    const Vector_f p = pose(s.position);
-    const int j = target.fine.field.nearest(p);
-    if (j < 0) continue;
-    const Surfel& t = target.fine.surfels[std::size_t(j)];
-    close += std::size_t(int((p - t.position).squaredNorm() <= reach * reach) &
-                         int((pose.rotation * s.normal).dot(t.normal) >= minimal_cosine));
+    int j;
+    if (nearest_surfel(target.fine, pose(s.position), j) > reach * reach) continue;
+    close += (pose.rotation * s.normal).dot(target.fine.surfels[std::size_t(j)].normal) >= minimal_cosine;
   }
   return n > 0 ? double(close) / double(n) : 0;
 }
