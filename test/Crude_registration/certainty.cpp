@@ -266,9 +266,11 @@ BOOST_AUTO_TEST_CASE(overlap_is_that_of_the_surfaces)
       const View &source = view(0, 0, noise, 200), &target = view(0, b, noise, 200);
       const Mesh s = mesh_of(view(0, 0, 0, 200).image), t = mesh_of(view(0, b, 0, 200).image);
       const Rigid_motion truth = true_motion(source, target);
-      // Surfels are told apart at their spacing: half of it is about where the surface of one ends.
-      const double distance =
-          0.5 * double((std::max)(source.scan.reduced().fine.spacing, target.scan.reduced().fine.spacing));
+      // Close by is within half the diagonal of a surfel's cell from a surfel's middle. At a border the last cell is
+      // half full in the mean, and its middle a quarter of the spacing inside: so far less does it reach from the
+      // surface.
+      const double spacing = double((std::max)(source.scan.reduced().fine.spacing, target.scan.reduced().fine.spacing)),
+                   distance = (std::sqrt(3.) / 2 - 0.25) * spacing;
       const double forth = true_overlap(s, truth, t, distance), back = true_overlap(t, truth.inverse(), s, distance);
       const Result there = CR::register_scans(source.scan, target.scan),
                    again = CR::register_scans(target.scan, source.scan);
