@@ -109,6 +109,20 @@ public:
           is_one[i] = false;
           is_tried = false;
         }
+      // Nor does a group beside vanish, all of whose faces were with one piece.
+      for (const Face& f : faces) {
+        const bool vanishes = std::any_of(f.begin(), f.end(), [&](std::int32_t i) {
+          const auto g = std::size_t(index[std::size_t(i)]);
+          return faces_of_groups.begin(g) == faces_of_groups.end(g);
+        });
+        if (!vanishes) continue;
+        for (std::int32_t i : f) {
+          const std::size_t root = pieces.root(std::size_t(i));
+          if (!is_one[root] || is_alone[root]) continue;
+          is_one[root] = false;
+          is_tried = false;
+        }
+      }
     }
     for (std::int32_t& group : m_group_of_vertex) group = index[std::size_t(group)];
     return m_groups.size() < n;
