@@ -12,6 +12,8 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_MATCHING_VERTICES_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_REDUCTION_MATCHING_VERTICES_H
 
+// Describes the vertices of a simplified mesh by the dense mesh around them.
+
 #include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
