@@ -147,7 +147,8 @@ public:
 
   /// The covariance of the small motion \f$ x \rightarrow x + \omega \times x + v \f$ that follows transformation(), in
   /// the order \f$ (\omega_x, \omega_y, \omega_z, v_x, v_y, v_z) \f$: radians about the axes through the origin of the
-  /// target's frame, and the displacement in the unit of its coordinates.
+  /// target's frame, and the displacement in the unit of its coordinates. It tells the scatter that independent noise
+  /// of the samples makes, not errors that all scans of a scanner have in common.
   const Covariance& covariance() const { return m_parts.covariance; }
 
   /// The names of the motions that the overlap leaves free, such as a turn about an axis; places and directions are in
