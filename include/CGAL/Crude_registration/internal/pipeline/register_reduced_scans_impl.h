@@ -57,7 +57,8 @@ inline float nearest_surfel(const Surfel_level& level, const Vector_f& place, in
   float least = (std::numeric_limits<float>::max)();
   nearest = Surfel_field::none;
   for (int k = 0; k < 27; ++k) {
-    const Vector_f step(float(k % 3 - 1), float(k / 3 % 3 - 1), float(k / 9 - 1));
+    const int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
+    const Vector_f step = Eigen::Vector3i(x, y, z).cast<float>();
     const int i = level.field.nearest(place + level.spacing * step);
     if (i < 0) continue;
     const float square = (place - level.surfels[std::size_t(i)].position).squaredNorm();

@@ -62,7 +62,8 @@ inline Flat_mesh simplified(const Flat_mesh& dense, double cell, double largest_
   add_flat_mesh(centred, mesh, parameters::default_values());
   Flat_mesh simple = simplify(mesh);
   const auto holes = small_holes(mesh, mesh.points(), largest_hole);
-  if (2 * 3 * holes.size() > simple.points.size()) {
+  constexpr std::size_t least_on_border = 3;
+  if (2 * least_on_border * holes.size() > simple.points.size()) {
     fill_holes(mesh, mesh.points(), holes);
     simple = simplify(std::move(mesh));
   }
