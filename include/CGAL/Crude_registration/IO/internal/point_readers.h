@@ -17,7 +17,7 @@
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
-#include <CGAL/Crude_registration/IO/internal/read_flat_scan.h>
+#include <CGAL/Crude_registration/IO/internal/Flat_scan_file.h>
 
 #include <Eigen/LU>
 

@@ -15,35 +15,14 @@
 // The door to the readers: what is in a file, as flat arrays.
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
-#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
+#include <CGAL/Crude_registration/IO/internal/Flat_scan_file.h>
 #include <CGAL/Crude_registration/internal/base/compiled.h>
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <string>
-#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
-
-struct Flat_scan_file
-{
-  enum Kind
-  {
-    RANGE_IMAGE,
-    MESH,
-    POINTS
-  };
-
-  Kind kind = POINTS;
-  std::vector<Vector> points;
-  std::vector<std::vector<std::size_t>> polygons; // of a mesh: a manifold with consistent faces, no vertex without one
-  std::size_t columns = 0, rows = 0;              // of a range image
-  std::vector<std::int32_t> grid;                 // row by row; -1 where there is no sample
-  Flat_sensor sensor;                             // as the file says, or as its grid tells
-};
 
 // As read_scan() describes it. \throws IO_error
 Flat_scan_file read_flat_scan(const std::string& filename);

@@ -1,0 +1,48 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Author(s)     : The Crude_registration authors
+
+#ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_FLAT_SCAN_FILE_H
+#define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_FLAT_SCAN_FILE_H
+
+// What is in a file, as flat arrays.
+
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+struct Flat_scan_file
+{
+  enum Kind
+  {
+    RANGE_IMAGE,
+    MESH,
+    POINTS
+  };
+
+  Kind kind = POINTS;
+  std::vector<Vector> points;
+  std::vector<std::vector<std::size_t>> polygons; // of a mesh: a manifold with consistent faces, no vertex without one
+  std::size_t columns = 0, rows = 0;              // of a range image
+  std::vector<std::int32_t> grid;                 // row by row; -1 where there is no sample
+  Flat_sensor sensor;                             // as the file says, or as its grid tells
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_IO_INTERNAL_FLAT_SCAN_FILE_H
