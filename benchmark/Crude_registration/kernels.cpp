@@ -202,7 +202,7 @@ void judgement_of_round(benchmark::State& state)
   const Input& in = input(state);
   auto judge = judge_of(in);
   const CR::internal::Proposals proposals = proposals_of(in);
-  for (auto _ : state) benchmark::DoNotOptimize(judge(proposals.poses, proposals.judged));
+  for (auto _ : state) benchmark::DoNotOptimize(judge(proposals.poses, proposals.are_estimated, proposals.judged));
   state.SetItemsProcessed(state.iterations() * std::int64_t(proposals.poses.size()));
 }
 
