@@ -29,7 +29,6 @@
 #include <cstddef>
 #include <limits>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -37,7 +36,7 @@ namespace Crude_registration {
 namespace internal {
 
 // Simplifies by grouping and collapse, whatever the type of the mesh that comes and goes. The grid of cells lies in the
-// scan's own frame, with which it moves.
+// scan's own frame, with which it moves. \throws Run_control::Stopped
 inline Flat_mesh simplify_by_groups(Flat_mesh mesh, double cell, const Simplification_limits& limits)
 {
   using Point = CGAL::Simple_cartesian<double>::Point_3;
@@ -50,7 +49,8 @@ inline Flat_mesh simplify_by_groups(Flat_mesh mesh, double cell, const Simplific
   // groups. Where a number of vertices stops it, the error is not known before.
   const bool is_error_known =
       limits.number_of_vertices == 0 && limits.mean_squared_distance < (std::numeric_limits<double>::max)();
-  const Grouped_mesh groups = group_by_cells(mesh, cell, is_error_known ? limits.mean_squared_distance / 2 : 0);
+  const Grouped_mesh groups =
+      group_by_cells(mesh, cell, is_error_known ? limits.mean_squared_distance / 2 : 0, *limits.control);
   CGAL::Surface_mesh<Point> surface;
   add_flat_mesh(groups.mesh, surface, parameters::default_values());
   const Given_quadrics_policies<CGAL::Surface_mesh<Point>, CGAL::Simple_cartesian<double>> policies(surface,
@@ -81,12 +81,12 @@ inline Flat_mesh simplify_by_groups(Flat_mesh mesh, double cell, const Simplific
  *
  * With `cell_size` the vertices of each connected piece of `mesh` inside a cell of a grid are grouped into one vertex
  * first, with the sum of their quadrics: the cost of a collapse still is the mean squared distance to the planes of the
- * faces of `mesh`. Groups inside the surface unite to larger ones where the mean squared distance of one vertex to the
- * planes of all is at most half of `approximation_error` (not if a number of vertices is given). The grid moves along
- * with the scan. Where the groups are no manifold, a face of an edge of three is left out and a vertex where parts of
- * the surface touch is repeated for each of them. Pieces of the surface within one or two cells vanish, closed surfaces
- * stay closed. What `mesh` holds is replaced: a `vertex_point_map` has to take the vertices that are added then, as the
- * property maps of a mesh do, and other property maps get no values.
+ * faces of `mesh`. Groups unite to larger ones where the mean squared distance of one vertex to the planes of all is at
+ * most half of `approximation_error` (not if a number of vertices is given), and no piece of the surface is cut off by
+ * it. The grid moves along with the scan. Where the groups are no manifold, a face of an edge of three is left out and
+ * a vertex where parts of the surface touch is repeated for each of them. Pieces of the surface within one or two cells
+ * vanish, closed surfaces stay closed. What `mesh` holds is replaced: a `vertex_point_map` has to take the vertices
+ * that are added then, as the property maps of a mesh do, and other property maps get no values.
  *
  * Vertices without a face are removed. The computations are done in `double`, in coordinates relative to the centre of
  * the mesh's bounding box, whatever the mesh's kernel; vertices that take part in no collapse keep their coordinates.
@@ -122,8 +122,8 @@ inline Flat_mesh simplify_by_groups(Flat_mesh mesh, double cell, const Simplific
  *     \cgalParamDescription{the edge length of the cells in which vertices are grouped before the collapse}
  *     \cgalParamType{`double`, a length, zero or above}
  *     \cgalParamDefault{`0`: no grouping}
- *     \cgalParamExtra{Cells of three to four sampling distances leave about as many vertices as no grouping, in a
- *                      fraction of the time.}
+ *     \cgalParamExtra{cells of three to four sampling distances leave about as many vertices as no grouping, in a
+ *                      fraction of the time}
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *

@@ -15,6 +15,7 @@
 // Groups the vertices of a dense mesh by cells of a grid and sums their plane quadrics, so that an edge collapse that
 // starts from the groups still measures distances to the planes of the dense mesh.
 
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/flat_mesh_repair.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
@@ -53,13 +54,13 @@ public:
   {
     group_vertices(dense);
     sum_quadrics(dense);
-    relabel(dense.faces, m_group_of_vertex);
+    relabel(dense.faces, m_group_of_vertex, m_groups.size());
   }
 
   // Unites the groups of each connected piece of the mesh in a cell of twice the size where the mean squared distance
-  // of one vertex to all their planes is at most `error` and its faces are one fan: no piece of the surface vanishes,
-  // and none is cut off that hung together by more than a vertex. Groups that do not fit into one stay as they are for
-  // good. Says whether there are fewer groups now.
+  // of one vertex to all their planes is at most `error`, its faces are one fan and no neighbour loses its last face:
+  // no piece of the surface vanishes, and none is cut off that hung together by more than a vertex. Groups that do not
+  // fit into one stay as they are for good. Says whether there are fewer groups now.
   bool unite(double error)
   {
     const std::size_t n = m_groups.size();
@@ -74,58 +75,54 @@ public:
       join(f[1], f[2]);
       join(f[2], f[0]);
     }
+    // The sums are those of the roots.
     std::vector<Group> sums = m_groups;
-    std::vector<bool> is_alone(n, true), is_one(n);
+    std::vector<std::size_t> roots(n);
+    std::vector<bool> has_others(n, false), is_one(n, false);
     for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t root = pieces.root(i);
-      if (root == i) continue;
-      sums[root].add(m_groups[i]);
-      is_alone[root] = false;
+      roots[i] = pieces.root(i);
+      if (roots[i] == i) continue;
+      sums[roots[i]].add(m_groups[i]);
+      has_others[roots[i]] = true;
     }
     for (std::size_t i = 0; i < n; ++i)
-      is_one[i] = pieces.root(i) == i && m_groups[i].may_unite && sums[i].optimum().mean_squared_distance <= error;
+      is_one[i] = roots[i] == i && m_groups[i].may_unite && sums[i].optimum().mean_squared_distance <= error;
 
     const std::vector<Face> faces = std::move(m_mesh.faces);
-    const std::vector<Group> groups = std::move(m_groups);
     std::vector<std::int32_t> index(n);
+    std::size_t number = 0;
     for (bool is_tried = false; !is_tried;) {
-      m_groups.clear();
-      for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t root = pieces.root(i);
-        // A root comes first in its piece.
-        if (is_one[root] && root != i) {
-          index[i] = index[root];
-          continue;
-        }
-        index[i] = std::int32_t(m_groups.size());
-        m_groups.push_back(is_one[root] ? sums[i] : groups[i]);
-        m_groups.back().may_unite = is_one[root];
-      }
-      relabel(faces, index);
+      number = 0;
+      for (std::size_t i = 0; i < n; ++i) // a root comes first in its piece
+        index[i] = is_one[roots[i]] && roots[i] != i ? index[roots[i]] : std::int32_t(number++);
+      relabel(faces, index, number);
       is_tried = true;
+      const auto dissolve = [&](std::size_t root) {
+        if (!is_one[root] || !has_others[root]) return;
+        is_one[root] = false;
+        is_tried = false;
+      };
       const Index_lists faces_of_groups = faces_of_vertices(m_mesh);
       for (std::size_t i = 0; i < n; ++i)
-        if (is_one[i] && !is_alone[i] && !has_one_fan(faces_of_groups, index[i])) {
-          is_one[i] = false;
-          is_tried = false;
+        if (is_one[i] && has_others[i] && !has_one_fan(faces_of_groups, index[i])) dissolve(i);
+      for (const Face& f : faces)
+        for (std::int32_t v : f) {
+          const auto group = std::size_t(index[std::size_t(v)]);
+          if (faces_of_groups.begin(group) != faces_of_groups.end(group)) continue;
+          for (std::int32_t w : f) dissolve(roots[std::size_t(w)]);
         }
-      // Nor does a group beside vanish, all of whose faces were with one piece.
-      for (const Face& f : faces) {
-        const bool vanishes = std::any_of(f.begin(), f.end(), [&](std::int32_t i) {
-          const auto g = std::size_t(index[std::size_t(i)]);
-          return faces_of_groups.begin(g) == faces_of_groups.end(g);
-        });
-        if (!vanishes) continue;
-        for (std::int32_t i : f) {
-          const std::size_t root = pieces.root(std::size_t(i));
-          if (!is_one[root] || is_alone[root]) continue;
-          is_one[root] = false;
-          is_tried = false;
-        }
-      }
     }
+    std::vector<Group> united;
+    united.reserve(number);
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool is_united = is_one[roots[i]];
+      if (is_united && roots[i] != i) continue;
+      united.push_back(is_united ? sums[i] : m_groups[i]);
+      united.back().may_unite = is_united;
+    }
+    m_groups = std::move(united);
     for (std::int32_t& group : m_group_of_vertex) group = index[std::size_t(group)];
-    return m_groups.size() < n;
+    return number < n;
   }
 
   // Leaves out what keeps the mesh from being a manifold, and groups without a face.
@@ -304,11 +301,11 @@ private:
 
   // Makes the faces of the grouped mesh from those of a finer one. Faces between fewer than three groups vanish; the
   // others are there once, each, in the more frequent orientation; flat folds have none.
-  void relabel(const std::vector<Face>& fine, const std::vector<std::int32_t>& group)
+  void relabel(const std::vector<Face>& fine, const std::vector<std::int32_t>& group, std::size_t number_of_groups)
   {
     // By first vertex, the smallest (counting), then by the two others, whichever comes first.
     std::vector<Face> faces;
-    std::vector<std::size_t> ends(m_groups.size() + 1, 0);
+    std::vector<std::size_t> ends(number_of_groups + 1, 0);
     for (const Face& f : fine) {
       std::int32_t a = group[std::size_t(f[0])], b = group[std::size_t(f[1])], c = group[std::size_t(f[2])];
       if (a == b || b == c || c == a) continue;
@@ -324,9 +321,9 @@ private:
     for (const Face& f : faces) sorted[ends[std::size_t(f[0])]++] = f;
     const auto others = [](const Face& f) { return std::make_pair((std::min)(f[1], f[2]), (std::max)(f[1], f[2])); };
     m_mesh.faces.clear();
-    m_mesh.points.resize(m_groups.size());
+    m_mesh.points.resize(number_of_groups);
     std::size_t k = 0;
-    for (std::size_t i = 0; i < m_groups.size(); ++i) {
+    for (std::size_t i = 0; i < number_of_groups; ++i) {
       std::sort(sorted.begin() + std::ptrdiff_t(k), sorted.begin() + std::ptrdiff_t(ends[i]),
                 [&](const Face& f, const Face& g) { return others(f) < others(g); });
       while (k < ends[i]) {
@@ -361,16 +358,18 @@ private:
 
 // Groups the vertices of a dense mesh in cubes of edge length `cell`, which meet at the origin of the coordinates, near
 // which the mesh should be (the quadrics lose the distances to rounding otherwise). Where one vertex has a mean squared
-// distance of at most `error` to the planes of several groups inside the surface, they unite, in cells of twice, four
-// times ... the size.
+// distance of at most `error` to the planes of several groups, they unite, in cells of twice, four times ... the size,
+// as long as none of the surface is lost or cut off by it.
 //
-// A group all of whose faces vanish is dropped. Linear in the size of the mesh, but for sorting the groups.
-inline Grouped_mesh group_by_cells(const Flat_mesh& dense, double cell, double error = 0)
+// A group all of whose faces vanish in the first cells is dropped. Linear in the size of the mesh, but for sorting the
+// groups. \throws Run_control::Stopped
+inline Grouped_mesh group_by_cells(const Flat_mesh& dense, double cell, double error = 0,
+                                   Run_control& control = to_the_end())
 {
+  control.check();
   Cell_grouping grouping(dense, cell);
-  if (error > 0)
-    while (grouping.unite(error)) {
-    }
+  control.check();
+  while (error > 0 && grouping.unite(error)) control.check();
   return grouping.grouped_mesh();
 }
 
