@@ -7,6 +7,7 @@ file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp
 
 # Every header is compiled alone, twice in a row, with all warnings as errors: by clang++ where it is there, two to three
 # times faster at this than g++, which meets all headers in the programs. One file carries the compile flags of all.
+# The internal headers are taken as the compiled core declares them; their code is met in the public ones and in src/.
 find_program(CRUDE_REGISTRATION_HEADER_COMPILER NAMES clang++-14 clang++)
 mark_as_advanced(CRUDE_REGISTRATION_HEADER_COMPILER)
 if(CRUDE_REGISTRATION_HEADER_COMPILER)
@@ -24,12 +25,13 @@ set(compile_flags ${PROJECT_BINARY_DIR}/headers/compile_flags.txt) # where clang
 file(GENERATE OUTPUT ${compile_flags} CONTENT "-std=c++17\n-frounding-math\n-I${PROJECT_SOURCE_DIR}/include
 $<$<BOOL:${includes}>:-isystem$<JOIN:${includes},\n-isystem>>
 $<$<BOOL:${definitions}>:-D$<JOIN:${definitions},\n-D>>\n")
-# check_source(STAMPS NAME SOURCE COMMENT): compiled, but for the code; adds a file that says so to the list STAMPS.
+# check_source(STAMPS NAME SOURCE COMMENT [OPTION...]): compiled, but for the code; adds a file that says so to the list
+# STAMPS.
 function(check_source stamps name source comment)
   set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.stamp)
   add_custom_command(OUTPUT ${stamp}
     COMMAND ${header_compiler} @${compile_flags} -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
-            -MMD -MT ${stamp} -MF ${stamp}.d ${source}
+            ${ARGN} -MMD -MT ${stamp} -MF ${stamp}.d ${source}
     COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
     DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${comment}")
   set(${stamps} ${${stamps}} ${stamp} PARENT_SCOPE)
@@ -44,7 +46,11 @@ foreach(header IN LISTS headers)
   string(MAKE_C_IDENTIFIER ${header} name)
   set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
-  check_source(header_stamps ${name} ${source} "${header} alone")
+  set(options "")
+  if(header MATCHES "/internal/")
+    set(options -DCGAL_CRUDE_REGISTRATION_COMPILED)
+  endif()
+  check_source(header_stamps ${name} ${source} "${header} alone" ${options})
 endforeach()
 add_custom_target(headers_alone DEPENDS ${header_stamps})
 # The benchmarks, which few builds build, and the command line program, which g++ compiles.

@@ -16,7 +16,7 @@
 
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
-#include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
+#include <CGAL/Crude_registration/internal/reduction/Curvature_tensor.h>
 
 #include <algorithm>
 #include <cmath>
