@@ -53,11 +53,13 @@ public:
   /// The type of the covariance of a motion: six rows of six numbers.
   using Covariance = std::array<std::array<double, 6>, 6>;
 
-  /// A motion that was considered, with its score: the larger, the better; comparable within one result only.
+  /// A motion that was considered, with its score as of score(), and the probability that it is right: those of all
+  /// motions that were considered and of none of them being right add up to one.
   struct Scored_motion
   {
     Transformation transformation;
     double score;
+    double probability;
   };
 
   /// What a stage of the registration did: how many items it worked on, and how long it took.
@@ -124,8 +126,8 @@ public:
   /// at most 1/2 where the overlap leaves motions free. At least 0.9 if and only if `REGISTERED`.
   double confidence() const { return m_parts.confidence; }
 
-  /// What transformation() scores: the share of the surface that it brings together to within the scans' noise, less
-  /// twice what violates free space.
+  /// The natural logarithm of the odds that transformation() is right, against none being right: what the evidence
+  /// says of it alone, whatever its rivals; the larger, the better. 0 if there is no motion at all.
   double score() const { return m_parts.score; }
 
   /// The share of the source's surface that has the target close by, with its normal, under transformation().

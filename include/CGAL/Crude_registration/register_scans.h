@@ -52,11 +52,11 @@ Registration_result<Kernel> to_result(const Registration_outcome& outcome)
   parts.target_has_free_space = outcome.target_has_free_space;
   parts.overlap = outcome.overlap;
   parts.residual = outcome.residual;
-  parts.score = double(outcome.agreement.score());
+  parts.score = outcome.poses.empty() ? 0 : outcome.poses.front().log_odds;
   parts.free_space_violations = double(outcome.agreement.violations);
   for (std::size_t i = parts.status == NOT_REGISTERED ? 0 : 1; i < outcome.poses.size(); ++i)
     parts.runners_up.push_back({to_aff_transformation<Kernel>(outcome.to_input(to_rigid_motion(outcome.poses[i].pose))),
-                                double(outcome.poses[i].score())});
+                                outcome.poses[i].log_odds, outcome.poses[i].probability});
   for (const Stage_record& s : outcome.stages) parts.statistics.push_back({s.name, s.count, s.seconds});
   return Registration_result<Kernel>(std::move(parts));
 }

@@ -28,13 +28,21 @@ struct Agreement
   float score() const { return overlap - 2 * violations; }
 };
 
+// What the outcomes of the probes say for a pose.
+struct Pose_evidence
+{
+  double nats = 0;    // a probe: of log( P(outcome | right) / P(outcome | chance) )
+  double missing = 0; // share of the probes that should have been seen and were not, of those that agree or should
+};
+
 // A pose after refinement, looked at closely.
 struct Judged_pose
 {
   Pose pose;
   Pose proposed; // before the refinement
-  Agreement agreement;
-  float score() const { return agreement.score(); }
+  Pose_evidence evidence;
+  double log_odds = 0;    // of being right, against there being no right one
+  double probability = 0; // of being right, among all distinct poses and none of them
 };
 
 } // namespace internal

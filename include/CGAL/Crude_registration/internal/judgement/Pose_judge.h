@@ -12,17 +12,21 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_POSE_JUDGE_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_POSE_JUDGE_H
 
-// The third step of a registration: proposed poses are refined, looked at closely, and told apart.
+// The third step of a registration: proposed poses are refined, weighed by evidence, and told apart.
 
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/judgement/Chance.h>
+#include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
+#include <CGAL/Crude_registration/internal/judgement/log_odds.h>
+#include <CGAL/Crude_registration/internal/judgement/probe_outcomes.h>
 #include <CGAL/Crude_registration/internal/motion/refine_step.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <vector>
 
@@ -36,27 +40,55 @@ public:
   // All kept by reference.
   Pose_judge(const Reduced_scan& source, const Reduced_scan& target, Execution execution, Run_control& control)
       : m_source(source), m_target(target), m_execution(execution), m_control(control),
-        m_fine_source_probes(source.fine, 0, 2500), m_fine_target_probes(target.fine, 0, 2500)
-  {
-    m_extent = float((std::min)(source.extent, target.extent));
-    m_fine_look = look_at(source.fine, target.fine, 4.3f, 2.4f, 3 * float((std::max)(source.spacing, target.spacing)));
-  }
+        m_fine_source_probes(source.fine, 0, 2500), m_fine_target_probes(target.fine, 0, 2500),
+        m_source_probes(source.fine, 0, evidence_probes), m_target_probes(target.fine, 0, evidence_probes),
+        m_extent(float((std::min)(source.extent, target.extent))),
+        m_fine_look(
+            look_at(source.fine, target.fine, 4.3f, 2.4f, 3 * float((std::max)(source.spacing, target.spacing)))),
+        m_tolerance(probe_tolerance(source.fine, target.fine, m_fine_look.free_depth))
+  {}
 
-  // The poses after refinement, looked at closely: of the best `number` of them, with no more than a few from around
-  // each place. `are_estimated`: by whoever proposed them, best first. None if the run is stopped.
-  std::vector<Judged_pose> operator()(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number)
+  // Refines and weighs what a round of the search proposes: of the poses the best `number`, with no more than a few
+  // from around each place. `are_estimated`: by whoever proposed them, best first; `tried` are then all that were. What
+  // the earlier rounds brought is weighed again, as each round tells more of chance. Nothing is added if the run is
+  // stopped.
+  void add_round(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number, std::vector<Pose> tried)
   {
     std::vector<Estimated_pose> best;
     if (are_estimated)
       for (std::size_t i = 0; i < (std::min)(proposed.size(), number); ++i) best.push_back({proposed[i], 0, i});
-    else best = estimated_again(m_source, m_target, proposed, number, m_execution, m_control);
+    else best = estimated_again(m_source, m_target, proposed, number, m_execution, m_control, tried);
     std::vector<Judged_pose> poses(best.size());
     for_each_index(m_execution, best.size(), m_control, [&](std::size_t i) {
-      poses[i] = judged(best[i].pose);
+      poses[i].pose = refined(best[i].pose);
       poses[i].proposed = proposed[best[i].index];
     });
-    if (m_control.is_stopped()) return {};
-    return poses;
+    if (m_control.is_stopped()) return;
+    add_candidates(tried);
+    if (m_control.is_stopped()) return;
+    m_judged.insert(m_judged.end(), poses.begin(), poses.end());
+    const Chance source(m_source_outcomes), target(m_target_outcomes);
+    for_each_index(m_execution, m_judged.size(), to_the_end(),
+                   [&](std::size_t i) { weigh(m_judged[i], source, target); });
+  }
+
+  std::size_t number_of_judged() const { return m_judged.size(); }
+
+  // The distinct poses of all rounds, most probable first: of each the best, with the proposal that is nearest to it of
+  // those that have led there. Their probabilities and that of none of them add up to one.
+  std::vector<Judged_pose> distinct_poses() const
+  {
+    std::vector<Judged_pose> sorted = m_judged, distinct;
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Judged_pose& a, const Judged_pose& b) { return a.log_odds > b.log_odds; });
+    for (const Judged_pose& p : sorted) {
+      const auto same = std::find_if(distinct.begin(), distinct.end(),
+                                     [&](const Judged_pose& d) { return are_one(p.pose, d.pose, m_extent); });
+      if (same == distinct.end()) distinct.push_back(p);
+      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) same->proposed = p.proposed;
+    }
+    share_probability(distinct);
+    return distinct;
   }
 
   // A pose as it is.
@@ -66,9 +98,8 @@ public:
   }
 
   // A pose after refinement on the fine surfels.
-  Judged_pose judged(const Pose& proposed) const
+  Pose refined(Pose pose) const
   {
-    Pose pose = proposed;
     const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
     // The first steps are the longest, and fewer probes tell them.
     const Probes some(m_source.fine, 0, 800);
@@ -76,42 +107,80 @@ public:
       if (refine_step(some, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
     for (float reach : {1.25f, 0.75f})
       if (refine_step(m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
-    return {pose, proposed, assess(pose)};
+    return pose;
   }
 
-  // Twice what any wrong pose was seen to reach, and far ahead of every other pose.
-  static bool is_certain(const std::vector<Judged_pose>& judged)
+  // Whether no more has to be looked for.
+  static bool is_certain(const std::vector<Judged_pose>& distinct)
   {
-    if (judged.empty() || judged.front().score() < 0.2f) return false;
-    return judged.size() == 1 || judged[1].score() < 0.4f * judged.front().score();
+    constexpr double certain = 0.99;
+    return !distinct.empty() && distinct.front().probability >= certain;
   }
 
-  // Keeps `judged` sorted and its poses distinct: of each the best, with the proposal that is nearest to it of those
-  // that have led there.
-  void add_distinct(Judged_pose pose, std::vector<Judged_pose>& judged) const
+  // The logarithm of the odds that a pose is right as it is.
+  // \pre A round was added.
+  double log_odds_of(const Pose& pose) const
   {
-    const auto is_same = [&](const Judged_pose& other) { return are_one(pose.pose, other.pose, m_extent); };
-    for (Judged_pose& other : judged) {
-      if (!is_same(other)) continue;
-      const Judged_pose& better = other.score() >= pose.score() ? other : pose;
-      other.proposed = pose.proposed =
-          is_nearer(pose.proposed, other.proposed, better.pose, m_extent) ? pose.proposed : other.proposed;
-      if (&better == &other) return;
-    }
-    judged.erase(std::remove_if(judged.begin(), judged.end(), is_same), judged.end());
-    judged.insert(std::find_if(judged.begin(), judged.end(),
-                               [&](const Judged_pose& other) { return other.score() < pose.score(); }),
-                  pose);
+    Judged_pose judged;
+    judged.pose = pose;
+    weigh(judged, Chance(m_source_outcomes), Chance(m_target_outcomes));
+    return judged.log_odds;
   }
 
 private:
+  static constexpr std::size_t evidence_probes = 1500; // of either scan
+
+  // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose.
+  void add_candidates(const std::vector<Pose>& poses)
+  {
+    const std::size_t old = m_candidates.size();
+    for (const Pose& p : poses)
+      if (std::none_of(m_candidates.begin(), m_candidates.end(),
+                       [&](const Pose& q) { return are_one(p, q, m_extent); }))
+        m_candidates.push_back(p);
+    m_source_outcomes.resize(m_candidates.size(), m_source_probes.size());
+    m_target_outcomes.resize(m_candidates.size(), m_target_probes.size());
+    for_each_index(m_execution, m_candidates.size() - old, m_control, [&](std::size_t i) {
+      look(m_candidates[old + i], m_source_outcomes[old + i], m_target_outcomes[old + i]);
+    });
+  }
+
+  void look(const Pose& pose, std::uint8_t* source, std::uint8_t* target) const
+  {
+    probe_outcomes(m_source_probes, m_target, pose, m_tolerance, source);
+    probe_outcomes(m_target_probes, m_source, pose.inverse(), m_tolerance, target);
+  }
+
+  void weigh(Judged_pose& judged, const Chance& source_chance, const Chance& target_chance) const
+  {
+    std::vector<std::uint8_t> source(m_source_probes.size()), target(m_target_probes.size());
+    look(judged.pose, source.data(), target.data());
+    std::vector<std::size_t> near;
+    for (std::size_t k = 0; k < m_candidates.size(); ++k)
+      if (are_one(judged.pose, m_candidates[k], m_extent)) near.push_back(k);
+    std::size_t agreeing = 0, missing = 0;
+    for (const auto* outcomes : {&source, &target})
+      for (const std::uint8_t o : *outcomes) {
+        agreeing += o != Outcome::UNKNOWN && o <= Outcome::fits;
+        missing += o == Outcome::MISSING;
+      }
+    judged.evidence.nats = (source_chance.evidence(source.data(), near) + target_chance.evidence(target.data(), near)) /
+                           double(source.size() + target.size());
+    judged.evidence.missing = double(missing) / double(agreeing + missing + 1);
+    judged.log_odds = log_odds(judged.evidence);
+  }
+
   const Reduced_scan& m_source;
   const Reduced_scan& m_target;
   const Execution m_execution;
   Run_control& m_control;
-  const Probes m_fine_source_probes, m_fine_target_probes;
-  float m_extent = 0;
-  Look m_fine_look;
+  const Probes m_fine_source_probes, m_fine_target_probes, m_source_probes, m_target_probes;
+  const float m_extent;
+  const Look m_fine_look;
+  const Probe_tolerance m_tolerance;
+  std::vector<Pose> m_candidates; // distinct; with what the probes of the source and of the target meet under them
+  Outcome_table m_source_outcomes, m_target_outcomes;
+  std::vector<Judged_pose> m_judged;
 };
 
 } // namespace internal

@@ -23,6 +23,12 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
+// The confidence from which on a motion is worth an answer.
+constexpr double plausible = 0.5;
+
+// The confidence from which on it is believed.
+constexpr double believed = 0.9;
+
 struct Verdict
 {
   Registration_status status = NOT_REGISTERED;

@@ -92,16 +92,18 @@ inline bool is_nearer(const Pose& a, const Pose& b, const Pose& to, float extent
 }
 
 // Poses that a few correspondences have given, estimated again from all of the coarse surfels that agree under them:
-// the best `number` of them, with no more than a few from around each place.
+// the best `number` of them, with no more than a few from around each place. All are added to `tried`.
 inline std::vector<Estimated_pose> estimated_again(const Reduced_scan& source, const Reduced_scan& target,
                                                    const std::vector<Pose>& proposed, std::size_t number,
-                                                   Execution execution, Run_control& control)
+                                                   Execution execution, Run_control& control, std::vector<Pose>& tried)
 {
   std::vector<Estimated_pose> all(proposed.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = {proposed[i], 0, i};
   estimate_poses(source, target, 200, {1.5f, 1.5f, 1.f}, execution, control, all);
+  for (std::size_t i = 4 * number; i < all.size(); ++i) tried.push_back(all[i].pose);
   if (all.size() > 4 * number) all.resize(4 * number);
   estimate_poses(source, target, 400, {1.f, 0.5f, 0.5f, 0.5f}, execution, control, all);
+  for (const Estimated_pose& p : all) tried.push_back(p.pose);
   // Some from around each pose, as not all end in it; not all from around the best one, as it needs rivals.
   constexpr auto most_of_one = 3;
   const float spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);

@@ -17,10 +17,13 @@
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
 #include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
+#include <CGAL/Crude_registration/internal/judgement/Verdict.h>
 #include <CGAL/Crude_registration/internal/motion/twist.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <locale>
 #include <sstream>
 #include <string>
@@ -84,9 +87,9 @@ inline Free_motions name_free_motions(const std::vector<Vector_6>& free, const V
   return names;
 }
 
-// The small motions (w, v) that leave the scans in agreement, most uncertain first: those along which they agree as
-// well two spacings of the simplified surface further on, either way. What the information matrix says is uncertain is
-// where to look; whether it is free, the surfaces themselves say.
+// The small motions (w, v) that the scans leave free, most uncertain first: those two spacings of the simplified
+// surface further along which, either way, the pose is so probable that were it a rival the first would not be
+// believed. What the information matrix says is uncertain is where to look; whether it is free, the evidence says.
 inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, const Rigid_motion& motion,
                                                const Matrix_6& covariance, const Vector& centre, double radius,
                                                double spacing)
@@ -99,15 +102,14 @@ inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, const Ri
   from_centre.topLeftCorner<3, 3>() /= radius;
   from_centre.bottomLeftCorner<3, 3>() = cross / radius;
   const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(to_centre * covariance * to_centre.transpose());
-  constexpr float as_well = 0.75f;
-  const float there = judge.assess(to_pose(motion)).score();
+  const double rival = judge.log_odds_of(to_pose(motion)) - std::log(believed / (1 - believed));
   std::vector<Vector_6> free;
   for (int k = 5; k >= 0; --k) {
     const Vector_6 twist = from_centre * eigen.vectors.col(k);
-    const auto score = [&](double distance) {
-      return judge.assess(to_pose(exponential(twist, distance) * motion)).score();
+    const auto log_odds = [&](double distance) {
+      return judge.log_odds_of(to_pose(exponential(twist, distance) * motion));
     };
-    if (!((std::max)(score(2 * spacing), score(-2 * spacing)) > as_well * there)) break;
+    if ((std::max)(log_odds(2 * spacing), log_odds(-2 * spacing)) < rival) break;
     free.push_back(twist);
   }
   return free;

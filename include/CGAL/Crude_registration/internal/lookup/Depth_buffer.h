@@ -82,11 +82,11 @@ public:
     }
     // A cell at a hole or at the border of what was seen knows nothing.
     m_depths.assign(nearest.size(), -far);
+    m_is_empty.assign(nearest.size(), 0);
     for (int i = 1; i + 1 < m_columns; ++i) {
       control.check();
       for (int j = 1; j + 1 < m_rows; ++j) {
         const std::size_t c = std::size_t(i) * std::size_t(m_rows) + std::size_t(j);
-        if (nearest[c] == far) continue;
         int filled = 0;
         float least = far;
         for (int di = -1; di <= 1; ++di)
@@ -95,7 +95,9 @@ public:
             filled += d < far;
             least = (std::min)(least, d);
           }
-        if (filled >= 7) m_depths[c] = least;
+        if (nearest[c] < far && filled >= 7) m_depths[c] = least;
+        // Two cells around what was seen are there for the sake of the border; the sensor need not have looked there.
+        m_is_empty[c] = filled == 0 && i > 2 && j > 2 && i + 3 < m_columns && j + 3 < m_rows;
       }
     }
   }
@@ -114,6 +116,23 @@ public:
               j = int(is_inside != 0 ? y : 0); // a cell at the border, which knows nothing
     const float depth = m_depths[std::size_t(i) * std::size_t(m_rows) + std::size_t(j)];
     return is_inside != 0 ? depth - q[2] : -(std::numeric_limits<float>::max)();
+  }
+
+  // Whether `p` would have been seen at a place of the image where nothing was: no sample in its cell nor in those
+  // around it.
+  bool is_empty(const Vector_f& p) const
+  {
+    if (m_is_empty.empty()) return false;
+    const Vector_f q = project(p);
+    const float x = (q[0] - m_low_x) * m_scale, y = (q[1] - m_low_y) * m_scale;
+    if (!(x >= 0 && y >= 0 && x < float(m_columns) && y < float(m_rows))) return false;
+    return m_is_empty[std::size_t(x) * std::size_t(m_rows) + std::size_t(y)] != 0;
+  }
+
+  // The direction of the line of sight through p, of any length.
+  Vector_f sight(const Vector_f& p) const
+  {
+    return m_kind == Flat_sensor::PERSPECTIVE ? Vector_f(p - m_viewpoint) : Vector_f(m_axes.row(2));
   }
 
 private:
@@ -137,6 +156,7 @@ private:
   Matrix_f m_axes = Matrix_f::Identity();
   float m_low_x = 0, m_low_y = 0, m_scale = 1;
   int m_columns = 0, m_rows = 0;
+  std::vector<std::uint8_t> m_is_empty;
   std::vector<float> m_depths = {-(std::numeric_limits<float>::max)()}; // at least one, that knows nothing
 };
 

@@ -61,6 +61,7 @@ struct Proposals
   std::vector<Pose> poses;
   std::size_t judged = 0;     // so many of them, after refinement, are worth a close look
   bool are_estimated = false; // from all of the surface that agrees under them, not from a few correspondences
+  std::vector<Pose> tried;    // where they are, all that were
 };
 
 // Proposes poses for two scans, round by round: a next round is asked for as long as nothing is certain.

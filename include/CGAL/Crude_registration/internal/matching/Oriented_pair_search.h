@@ -115,7 +115,8 @@ public:
         kept.push_back(c.pose);
     }
     // A pair fixes its motion to some degrees only; all that agrees under it tells more.
-    for (const Estimated_pose& p : estimated_again(m_source, m_target, kept, round.judged, m_execution, control))
+    for (const Estimated_pose& p :
+         estimated_again(m_source, m_target, kept, round.judged, m_execution, control, proposals.tried))
       proposals.poses.push_back(p.pose);
     proposals.are_estimated = true;
     proposals.judged = round.judged;

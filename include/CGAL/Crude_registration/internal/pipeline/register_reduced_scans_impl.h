@@ -29,6 +29,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -42,12 +43,6 @@ inline bool are_swapped(const Reduced_scan& source, const Reduced_scan& target)
   if (source.coarse.surfels.size() != target.coarse.surfels.size())
     return source.coarse.surfels.size() > target.coarse.surfels.size();
   return source.extent > target.extent;
-}
-
-// The noise of a level, in the unit of length; what sampling alone makes up is at least a fiftieth of the spacing.
-inline double noise(const Surfel_level& level)
-{
-  return double(level.spacing) * (std::max)(double(level.height_noise), 0.02);
 }
 
 // The square of the distance to the nearest surfel of a level; `nearest` is its index, or none. The field tells what is
@@ -100,10 +95,10 @@ inline std::vector<Judged_pose> propose_and_judge(Candidate_source& candidates, 
     Proposals proposals;
     if (!candidates.next(control, proposals) || control.is_stopped()) return distinct;
     const Stage_timer timer(stage);
-    const std::vector<Judged_pose> judged = judge(proposals.poses, proposals.are_estimated, proposals.judged);
+    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
     if (control.is_stopped()) return distinct;
-    stage.count += judged.size();
-    for (const Judged_pose& p : judged) judge.add_distinct(p, distinct);
+    stage.count = judge.number_of_judged();
+    distinct = judge.distinct_poses();
     if (Pose_judge::is_certain(distinct)) return distinct;
   }
 }
@@ -149,10 +144,7 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   for (Vector_6& m : free) m = to_input * m;
   const Vector centre = outcome.target_frame.inverse()(own.translation);
   const Free_motions named = name_free_motions(free, outcome.is_swapped ? outcome.motion(centre) : centre, radius);
-  const Fit fit = {double((std::min)(source.fine.surfels.size(), target.fine.surfels.size())), outcome.residual,
-                   refinement.residual / (std::max)(noise(source.fine), noise(target.fine)),
-                   refinement.free_motions.size()};
-  outcome.verdict = is_interrupted ? interrupted(outcome.poses, fit) : judge_poses(outcome.poses, fit, named);
+  outcome.verdict = is_interrupted ? interrupted(outcome.poses) : judge_poses(outcome.poses, named);
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,
