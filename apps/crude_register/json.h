@@ -65,7 +65,9 @@ void add_result(Json& json, const CGAL::Crude_registration::Registration_result<
   json["free_motions"] = result.free_motions();
   Json& runners_up = json["runners_up"] = Json::array();
   for (const auto& runner_up : result.runners_up())
-    runners_up.push_back({{"score", runner_up.score}, {"target_from_source", to_json(runner_up.transformation)}});
+    runners_up.push_back({{"score", runner_up.score},
+                          {"probability", runner_up.probability},
+                          {"target_from_source", to_json(runner_up.transformation)}});
   Json& statistics = json["statistics"] = Json::array();
   for (const auto& stage : result.statistics()) {
     Json& entry = statistics.emplace_back(Json{{"stage", stage.name}, {"count", stage.count}});

@@ -196,23 +196,26 @@ void search_round(benchmark::State& state)
   }
 }
 
-// The refinement of what the first round proposes, and the close look at the best; per proposal.
+// The refinement of the best of what the first round proposes, and what all of it is evidence of; per proposal.
 void judgement_of_round(benchmark::State& state)
 {
   const Input& in = input(state);
-  auto judge = judge_of(in);
   const CR::internal::Proposals proposals = proposals_of(in);
-  for (auto _ : state) benchmark::DoNotOptimize(judge(proposals.poses, proposals.are_estimated, proposals.judged));
+  for (auto _ : state) {
+    auto judge = judge_of(in);
+    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, proposals.tried);
+    benchmark::DoNotOptimize(judge.distinct_poses());
+  }
   state.SetItemsProcessed(state.iterations() * std::int64_t(proposals.poses.size()));
 }
 
-// A close look at one pose: its refinement on the fine surfels, and its score.
+// One pose: its refinement on the fine surfels, and its score.
 void judgement_of_pose(benchmark::State& state)
 {
   const Input& in = input(state);
   const auto judge = judge_of(in);
   const CR::internal::Pose pose = in.true_pose();
-  for (auto _ : state) benchmark::DoNotOptimize(judge.judged(pose));
+  for (auto _ : state) benchmark::DoNotOptimize(judge.refined(pose));
 }
 
 void score_of_pose(benchmark::State& state)

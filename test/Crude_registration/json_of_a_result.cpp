@@ -46,7 +46,7 @@ Result some_result()
   for (std::size_t i = 0; i < 6; ++i) parts.covariance[i][i] = double(i) + 0.1;
   parts.covariance[0][1] = std::numeric_limits<double>::infinity();
   parts.free_motions = {"sliding", "turning"};
-  parts.runners_up.push_back({Transformation(CGAL::IDENTITY), 0.25});
+  parts.runners_up.push_back({Transformation(CGAL::IDENTITY), 0.25, 0.125});
   parts.statistics = {{"reduce", 123456789, 0.5}, {"judge", 12, 0.25}};
   return Result(parts);
 }
@@ -95,6 +95,7 @@ BOOST_AUTO_TEST_CASE(every_member_is_read_back_to_the_last_bit)
              boost::test_tools::per_element());
   BOOST_REQUIRE(json.at("runners_up").size() == 1);
   BOOST_TEST(json["runners_up"][0].at("score").get<double>() == 0.25);
+  BOOST_TEST(json["runners_up"][0].at("probability").get<double>() == 0.125);
   check_motion(json["runners_up"][0].at("target_from_source"), Transformation(CGAL::IDENTITY));
   BOOST_REQUIRE(json.at("statistics").size() == 2);
   BOOST_TEST(json["statistics"][0].at("stage").get<std::string>() == "reduce");

@@ -136,40 +136,53 @@ BOOST_AUTO_TEST_CASE(violations_are_what_lies_in_front_of_either_scan)
   BOOST_TEST(largest > 0.5f);
 }
 
-BOOST_AUTO_TEST_CASE(a_judged_pose_is_refined)
+BOOST_AUTO_TEST_CASE(poses_are_refined)
 {
   const Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
   const Rigid_motion wanted = own(true_motion(a(), b()));
   const double spacing = a().scan.spacing();
   const Vector middle = Vector::Zero(); // of the source in its own frame
   const Rigid_motion crude = turned(wanted, 0.02, 1.5 * spacing * Vector(1, -1, 1));
-  const auto judged = judge.judged(to_pose(crude));
+  const Pose refined = judge.refined(to_pose(crude));
   const double off = difference(crude, wanted, middle);
-  BOOST_TEST(difference(CR::internal::to_rigid_motion(judged.pose), wanted, middle) < 0.3 * off);
-  BOOST_TEST(judged.score() > judge.assess(to_pose(crude)).score());
-  BOOST_TEST((judged.proposed.rotation == to_pose(crude).rotation));
+  BOOST_TEST(difference(CR::internal::to_rigid_motion(refined), wanted, middle) < 0.3 * off);
+  BOOST_TEST(judge.assess(refined).score() > judge.assess(to_pose(crude)).score());
+}
 
-  // Of many poses the best, with what was proposed for each.
+BOOST_AUTO_TEST_CASE(the_right_one_of_many_poses_is_most_probable)
+{
+  const Rigid_motion wanted = own(true_motion(a(), b()));
+  const double spacing = a().scan.spacing();
+  const Vector middle = Vector::Zero();
   std::vector<Pose> proposed;
   for (int i = 0; i < 40; ++i) proposed.push_back(to_pose(turned(wanted, 0.02 + 0.15 * i, Vector(0, 0, 0.01 * i))));
   std::rotate(proposed.begin(), proposed.begin() + 7, proposed.end());
-  Pose_judge many = judge_of(a().scan.reduced(), b().scan.reduced());
-  const auto all = many(proposed, false, 8);
-  BOOST_TEST_REQUIRE(!all.empty());
-  BOOST_TEST(all.size() <= 8u);
-  std::vector<CR::internal::Judged_pose> distinct;
-  for (const auto& j : all) {
+  Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
+  BOOST_TEST(judge.distinct_poses().empty());
+  judge.add_round(proposed, false, 8, {});
+  BOOST_TEST(judge.number_of_judged() <= 8u);
+  const auto poses = judge.distinct_poses();
+  BOOST_TEST_REQUIRE(!poses.empty());
+  BOOST_TEST(difference(CR::internal::to_rigid_motion(poses.front().pose), wanted, middle) < 2 * spacing);
+  BOOST_TEST(poses.front().probability > 0.9);
+  double sum = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
     BOOST_TEST(std::any_of(proposed.begin(), proposed.end(), [&](const Pose& p) {
-      return p.rotation == j.proposed.rotation && p.translation == j.proposed.translation;
+      return p.rotation == poses[i].proposed.rotation && p.translation == poses[i].proposed.translation;
     }));
-    many.add_distinct(j, distinct);
-  }
-  BOOST_TEST(difference(CR::internal::to_rigid_motion(distinct.front().pose), wanted, middle) < 2 * spacing);
-  for (std::size_t i = 1; i < distinct.size(); ++i) {
-    BOOST_TEST(distinct[i].score() <= distinct[i - 1].score());
+    BOOST_TEST(poses[i].probability >= 0);
+    sum += poses[i].probability;
+    if (i > 0) BOOST_TEST(poses[i].log_odds <= poses[i - 1].log_odds);
     for (std::size_t j = 0; j < i; ++j)
-      BOOST_TEST(!CR::internal::are_one(distinct[i].pose, distinct[j].pose, float(a().scan.extent())));
+      BOOST_TEST(!CR::internal::are_one(poses[i].pose, poses[j].pose, float(a().scan.extent())));
   }
+  BOOST_TEST(sum <= 1 + 1e-12);
+  // What is known of chance changes with the next round, not what was judged.
+  const std::size_t before = judge.number_of_judged();
+  judge.add_round({proposed.begin(), proposed.begin() + 3}, false, 8, {});
+  BOOST_TEST(judge.number_of_judged() > before);
+  BOOST_TEST(difference(CR::internal::to_rigid_motion(judge.distinct_poses().front().pose), wanted, middle) <
+             2 * spacing);
 }
 
 BOOST_AUTO_TEST_CASE(without_free_space_nothing_is_violated)

@@ -159,7 +159,11 @@ private:
 void check_not_registered(const Result& result)
 {
   check_proper(result);
-  BOOST_TEST(result.status() != CR::REGISTERED, "registered, confidence " << result.confidence());
+  BOOST_TEST(result.status() != CR::REGISTERED,
+             "registered, confidence " << result.confidence() << ", score " << result.score() << ", overlap "
+                                       << result.overlap() << ", residual " << result.residual() << ", violations "
+                                       << result.free_space_violations() << ", next "
+                                       << (result.runners_up().empty() ? 0. : result.runners_up().front().score));
 }
 
 // The same answer but for rounding, which takes a few samples to another cell: where the confidence is near the limit

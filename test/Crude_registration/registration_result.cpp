@@ -35,7 +35,7 @@ Result some_result()
   parts.overlap = 1. / 3;
   parts.covariance[0][0] = 0.5;
   parts.free_motions = {"sliding", "turning"};
-  parts.runners_up.push_back({Transformation(CGAL::IDENTITY), 0.25});
+  parts.runners_up.push_back({Transformation(CGAL::IDENTITY), 0.25, 0.125});
   parts.statistics = {{"candidates", 123456789, 0.5}, {"scored", 12, 0.25}};
   return Result(parts);
 }

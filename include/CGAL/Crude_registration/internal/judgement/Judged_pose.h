@@ -31,7 +31,8 @@ struct Agreement
 // What the outcomes of the probes say for a pose.
 struct Pose_evidence
 {
-  double nats = 0;    // a probe: of log( P(outcome | right) / P(outcome | chance) )
+  double nats = 0;    // a probe: of log( P(outcome | right) / P(outcome | chance) ), as chance is between the two scans
+  double usual = 0;   // the same, as chance is between any two scans
   double missing = 0; // share of the probes that should have been seen and were not, of those that agree or should
 };
 
@@ -41,7 +42,8 @@ struct Judged_pose
   Pose pose;
   Pose proposed; // before the refinement
   Pose_evidence evidence;
-  double log_odds = 0;    // of being right, against there being no right one
+  double log_odds = 0; // of being right, against there being no right one, as chance is between the two scans
+  double usual_log_odds = 0;
   double probability = 0; // of being right, among all distinct poses and none of them
 };
 

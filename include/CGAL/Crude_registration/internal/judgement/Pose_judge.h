@@ -37,9 +37,10 @@ namespace internal {
 class Pose_judge
 {
 public:
-  // All kept by reference.
-  Pose_judge(const Reduced_scan& source, const Reduced_scan& target, Execution execution, Run_control& control)
-      : m_source(source), m_target(target), m_execution(execution), m_control(control),
+  // The scans and the control are kept by reference.
+  Pose_judge(const Reduced_scan& source, const Reduced_scan& target, Execution execution, Run_control& control,
+             const Evidence_coefficients& coefficients = {})
+      : m_source(source), m_target(target), m_execution(execution), m_control(control), m_coefficients(coefficients),
         m_fine_source_probes(source.fine, 0, 2500), m_fine_target_probes(target.fine, 0, 2500),
         m_source_probes(source.fine, 0, evidence_probes), m_target_probes(target.fine, 0, evidence_probes),
         m_extent(float((std::min)(source.extent, target.extent))),
@@ -67,7 +68,7 @@ public:
     add_candidates(tried);
     if (m_control.is_stopped()) return;
     m_judged.insert(m_judged.end(), poses.begin(), poses.end());
-    const Chance source(m_source_outcomes), target(m_target_outcomes);
+    const Chance source(m_source_outcomes, m_coefficients), target(m_target_outcomes, m_coefficients);
     for_each_index(m_execution, m_judged.size(), to_the_end(),
                    [&](std::size_t i) { weigh(m_judged[i], source, target); });
   }
@@ -78,17 +79,19 @@ public:
   // those that have led there. Their probabilities and that of none of them add up to one.
   std::vector<Judged_pose> distinct_poses() const
   {
-    std::vector<Judged_pose> sorted = m_judged, distinct;
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const Judged_pose& a, const Judged_pose& b) { return a.log_odds > b.log_odds; });
-    for (const Judged_pose& p : sorted) {
-      const auto same = std::find_if(distinct.begin(), distinct.end(),
-                                     [&](const Judged_pose& d) { return are_one(p.pose, d.pose, m_extent); });
-      if (same == distinct.end()) distinct.push_back(p);
-      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) same->proposed = p.proposed;
-    }
-    share_probability(distinct);
-    return distinct;
+    std::vector<Judged_pose> poses = distinct_by(&Judged_pose::log_odds);
+    share_probability(poses, &Judged_pose::log_odds);
+    return poses;
+  }
+
+  // The same as chance is between any two scans: where the scans fit each other in many ways, what is usual for this
+  // pair tells none from the others.
+  std::vector<Judged_pose> usual_distinct_poses() const
+  {
+    std::vector<Judged_pose> poses = distinct_by(&Judged_pose::usual_log_odds);
+    for (Judged_pose& p : poses) p.log_odds = p.usual_log_odds;
+    share_probability(poses, &Judged_pose::log_odds);
+    return poses;
   }
 
   // A pose as it is.
@@ -117,18 +120,45 @@ public:
     return !distinct.empty() && distinct.front().probability >= certain;
   }
 
-  // The logarithm of the odds that a pose is right as it is.
+  // A pose as it is, with what the evidence says of it.
   // \pre A round was added.
-  double log_odds_of(const Pose& pose) const
+  Judged_pose weighed(const Pose& pose) const
   {
     Judged_pose judged;
     judged.pose = pose;
-    weigh(judged, Chance(m_source_outcomes), Chance(m_target_outcomes));
-    return judged.log_odds;
+    weigh(judged, Chance(m_source_outcomes, m_coefficients), Chance(m_target_outcomes, m_coefficients));
+    return judged;
+  }
+
+  // The distinct candidates so far, and what the probes of either scan meet under them.
+  const std::vector<Pose>& candidates() const { return m_candidates; }
+  const Outcome_table& source_outcomes() const { return m_source_outcomes; }
+  const Outcome_table& target_outcomes() const { return m_target_outcomes; }
+
+  // What the probes of the source meet under a pose, and behind them those of the target.
+  std::vector<std::uint8_t> outcomes(const Pose& pose) const
+  {
+    std::vector<std::uint8_t> result(m_source_probes.size() + m_target_probes.size());
+    look(pose, result.data(), result.data() + m_source_probes.size());
+    return result;
   }
 
 private:
   static constexpr std::size_t evidence_probes = 1500; // of either scan
+
+  std::vector<Judged_pose> distinct_by(double Judged_pose::*key) const
+  {
+    std::vector<Judged_pose> sorted = m_judged, distinct;
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [key](const Judged_pose& a, const Judged_pose& b) { return a.*key > b.*key; });
+    for (const Judged_pose& p : sorted) {
+      const auto same = std::find_if(distinct.begin(), distinct.end(),
+                                     [&](const Judged_pose& d) { return are_one(p.pose, d.pose, m_extent); });
+      if (same == distinct.end()) distinct.push_back(p);
+      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) same->proposed = p.proposed;
+    }
+    return distinct;
+  }
 
   // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose.
   void add_candidates(const std::vector<Pose>& poses)
@@ -164,16 +194,21 @@ private:
         agreeing += o != Outcome::UNKNOWN && o <= Outcome::fits;
         missing += o == Outcome::MISSING;
       }
-    judged.evidence.nats = (source_chance.evidence(source.data(), near) + target_chance.evidence(target.data(), near)) /
-                           double(source.size() + target.size());
+    const auto probes = double(source.size() + target.size());
+    judged.evidence.nats =
+        (source_chance.evidence(source.data(), near) + target_chance.evidence(target.data(), near)) / probes;
+    judged.evidence.usual =
+        (source_chance.usual_evidence(source.data()) + target_chance.usual_evidence(target.data())) / probes;
     judged.evidence.missing = double(missing) / double(agreeing + missing + 1);
-    judged.log_odds = log_odds(judged.evidence);
+    judged.log_odds = log_odds(judged.evidence.nats, judged.evidence.missing, m_coefficients);
+    judged.usual_log_odds = log_odds(judged.evidence.usual, judged.evidence.missing, m_coefficients);
   }
 
   const Reduced_scan& m_source;
   const Reduced_scan& m_target;
   const Execution m_execution;
   Run_control& m_control;
+  const Evidence_coefficients m_coefficients;
   const Probes m_fine_source_probes, m_fine_target_probes, m_source_probes, m_target_probes;
   const float m_extent;
   const Look m_fine_look;

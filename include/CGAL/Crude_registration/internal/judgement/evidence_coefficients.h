@@ -29,6 +29,8 @@ struct Evidence_coefficients
   // each of these by the angle between the normals (up to 1/3, 2/3, 1 of the tolerance).
   double right_fit[12] = {0.3614, 0.1221, 0.0195, 0.1709, 0.0811, 0.0166,
                           0.0713, 0.0586, 0.0234, 0.0078, 0.0195, 0.0244};
+  // The same under the candidates of a pair.
+  double wrong_fit[12] = {0.08, 0.064, 0.033, 0.072, 0.062, 0.033, 0.099, 0.109, 0.059, 0.116, 0.159, 0.104};
   // log( P(right) / P(none) ) = slope sqrt(evidence a probe) + missing (share of the probes that go missing, of those
   // that agree or do) + offset.
   double slope = 28.5;

@@ -90,9 +90,10 @@ inline Free_motions name_free_motions(const std::vector<Vector_6>& free, const V
 // The small motions (w, v) that the scans leave free, most uncertain first: those two spacings of the simplified
 // surface further along which, either way, the pose is so probable that were it a rival the first would not be
 // believed. What the information matrix says is uncertain is where to look; whether it is free, the evidence says.
-inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, const Rigid_motion& motion,
-                                               const Matrix_6& covariance, const Vector& centre, double radius,
-                                               double spacing)
+// `log_odds`: by which of the two kinds of chance.
+inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, double Judged_pose::*log_odds,
+                                               const Rigid_motion& motion, const Matrix_6& covariance,
+                                               const Vector& centre, double radius, double spacing)
 {
   // In units of length, about the centre.
   const Matrix cross = cross_matrix(centre);
@@ -102,14 +103,14 @@ inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, const Ri
   from_centre.topLeftCorner<3, 3>() /= radius;
   from_centre.bottomLeftCorner<3, 3>() = cross / radius;
   const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(to_centre * covariance * to_centre.transpose());
-  const double rival = judge.log_odds_of(to_pose(motion)) - std::log(believed / (1 - believed));
+  const double rival = judge.weighed(to_pose(motion)).*log_odds - std::log(believed / (1 - believed));
   std::vector<Vector_6> free;
   for (int k = 5; k >= 0; --k) {
     const Vector_6 twist = from_centre * eigen.vectors.col(k);
-    const auto log_odds = [&](double distance) {
-      return judge.log_odds_of(to_pose(exponential(twist, distance) * motion));
+    const auto moved = [&](double distance) {
+      return judge.weighed(to_pose(exponential(twist, distance) * motion)).*log_odds;
     };
-    if ((std::max)(log_odds(2 * spacing), log_odds(-2 * spacing)) < rival) break;
+    if ((std::max)(moved(2 * spacing), moved(-2 * spacing)) < rival) break;
     free.push_back(twist);
   }
   return free;

@@ -122,7 +122,7 @@ inline Refinement refined(const Reduced_scan& source, const Reduced_scan& target
 }
 
 // What the refined motion says, in the frames of the input, and what is to be believed of it.
-inline void conclude(const Reduced_scan& source, const Reduced_scan& target, const Pose_judge& judge,
+inline void conclude(const Reduced_scan& source, const Reduced_scan& target, const Pose_judge& judge, bool is_of_many,
                      const Refinement& refinement, bool is_interrupted, Registration_outcome& outcome)
 {
   const Rigid_motion& own = refinement.motion;
@@ -140,11 +140,12 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
 
   const double radius = 0.25 * source.extent;
   std::vector<Vector_6> free =
-      find_free_motions(judge, own, refinement.covariance, own.translation, radius, double(source.coarse.spacing));
+      find_free_motions(judge, is_of_many ? &Judged_pose::usual_log_odds : &Judged_pose::log_odds, own,
+                        refinement.covariance, own.translation, radius, double(source.coarse.spacing));
   for (Vector_6& m : free) m = to_input * m;
   const Vector centre = outcome.target_frame.inverse()(own.translation);
   const Free_motions named = name_free_motions(free, outcome.is_swapped ? outcome.motion(centre) : centre, radius);
-  outcome.verdict = is_interrupted ? interrupted(outcome.poses) : judge_poses(outcome.poses, named);
+  outcome.verdict = is_interrupted ? interrupted(outcome.poses) : judge_poses(outcome.poses, is_of_many, named);
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,
@@ -173,6 +174,12 @@ CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const
     outcome.verdict.reason = control.is_stopped() ? "interrupted: no overlap found so far"
                                                   : "no overlap found: no motion brings any part of the scans together";
   } else {
+    bool is_of_many = false;
+    if (!control.is_stopped() && probability_of_any(outcome.poses) < plausible) {
+      const std::vector<Judged_pose> usual = judge.usual_distinct_poses();
+      is_of_many = probability_of_any(usual) >= plausible;
+      if (is_of_many) outcome.poses = usual;
+    }
     Refinement refinement;
     {
       const Stage_timer timer(refining);
@@ -180,7 +187,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const
       refining.count = refinement.iterations;
     }
     const Stage_timer timer(concluding);
-    conclude(source, target, judge, refinement, control.is_stopped(), outcome);
+    conclude(source, target, judge, is_of_many, refinement, control.is_stopped(), outcome);
     concluding.count = outcome.poses.size();
   }
   for (const Stage_record& s : candidates->stages()) outcome.stages.push_back(s);

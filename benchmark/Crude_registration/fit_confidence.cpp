@@ -1,0 +1,503 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Measures what the judgement of poses needs to know, on generated scans, and writes the header that holds it.
+//
+// Bodies, bodies on pedestals, machined parts and rooms are seen by sensors from fine to coarse, with and without their
+// sensor; right, disjoint, mirrored and foreign pairs are searched. How probes come out under right poses and under the
+// candidates gives the tables; evidence and truth of the distinct poses, after each round of the search, the
+// coefficients of the confidence, by conditional logistic regression (McFadden 1974). Each setting, a sensor and a kind
+// of scene, is judged by coefficients fitted to the others: Brier score and reliability are of these.
+//
+// With --check nothing is fitted: the coefficients of the header are judged, and what is returned says whether they are
+// calibrated.
+
+#include "command_line.h"
+#include "simulated_set.h"
+
+#include <CGAL/Crude_registration/IO/write_file.h>
+#include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
+#include <CGAL/Crude_registration/internal/matching/Oriented_pair_search.h>
+#include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
+
+#include <CGAL/Surface_mesh.h>
+
+#include <boost/program_options.hpp>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CR = CGAL::Crude_registration;
+namespace CRI = CR::internal;
+namespace po = boost::program_options;
+using benchmark_tools::Sensor_model;
+using benchmark_tools::Simulated_set;
+using Kernel = Simulated_set::Kernel;
+using Scan = CR::Scan<Kernel>;
+using Image = CR::Range_image<Kernel>;
+using Coefficients = CRI::Evidence_coefficients;
+
+namespace {
+
+// The criterion of the comparison: 5 degrees, and 5 % of the diagonal of the source.
+bool is_right(const CRI::Pose& pose, const CRI::Rigid_motion& truth, const CRI::Reduced_scan& source)
+{
+  const CRI::Pose t = CRI::to_pose(truth);
+  const Eigen::AngleAxisf turn(CRI::Matrix_f(pose.rotation * t.rotation.transpose()));
+  if (turn.angle() >= 5 * float(CGAL_PI) / 180) return false;
+  double squared = 0;
+  CRI::Vector_f low = source.fine.surfels.front().position, high = low;
+  for (const CRI::Surfel& s : source.fine.surfels) {
+    squared += double((pose(s.position) - t(s.position)).squaredNorm());
+    low = low.cwiseMin(s.position);
+    high = high.cwiseMax(s.position);
+  }
+  return std::sqrt(squared / double(source.fine.surfels.size())) < 0.05 * double((high - low).norm());
+}
+
+// A pair of scans that is searched, in the frames and the order of the search.
+struct Pair
+{
+  const CRI::Reduced_scan* source;
+  const CRI::Reduced_scan* target;
+  std::optional<CRI::Rigid_motion> truth; // none where there is no right pose
+  std::size_t setting;
+};
+
+using Round_function = std::function<void(const Pair&, const CRI::Pose_judge&, int round)>;
+
+// Searches a pair to the end, and calls the function after each round. `truth`: of the input, or null.
+void search(std::size_t setting, const Scan& a, const Scan& b, const CRI::Rigid_motion* truth,
+            const Coefficients& coefficients, const Round_function& function)
+{
+  const bool is_swapped = a.reduced().coarse.surfels.size() > b.reduced().coarse.surfels.size();
+  const CRI::Reduced_scan &source = is_swapped ? b.reduced() : a.reduced(),
+                          &target = is_swapped ? a.reduced() : b.reduced();
+  if (source.coarse.surfels.size() < 4) return;
+  Pair pair{&source, &target, std::nullopt, setting};
+  if (truth)
+    pair.truth = target.own_from_input * (is_swapped ? truth->inverse() : *truth) * source.own_from_input.inverse();
+  CRI::Oriented_pair_search candidates(source, target, CRI::Oriented_pair_parameters(), CRI::Execution::SEQUENTIAL);
+  CRI::Pose_judge judge(source, target, CRI::Execution::SEQUENTIAL, CRI::to_the_end(), coefficients);
+  for (int round = 0;; ++round) {
+    CRI::Proposals proposals;
+    if (!candidates.next(CRI::to_the_end(), proposals)) return;
+    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
+    function(pair, judge, round);
+  }
+}
+
+Scan scan_of(const Image& image, bool with_sensor)
+{
+  if (with_sensor) return Scan(image);
+  CGAL::Surface_mesh<Kernel::Point_3> mesh;
+  CR::triangulate_range_image(image, mesh);
+  return Scan(mesh);
+}
+
+// As seen in a mirror; the columns the other way round, so that faces keep their side.
+Image mirrored(const Image& image)
+{
+  Image result(image.columns(), image.rows());
+  result.set_sensor(image.sensor());
+  for (std::size_t r = 0; r < image.rows(); ++r)
+    for (std::size_t c = 0; c < image.columns(); ++c) {
+      const auto i = image.grid()[r * image.columns() + c];
+      if (i < 0) continue;
+      const auto& p = image.points()[std::size_t(i)];
+      result.set_sample(image.columns() - 1 - c, r, Kernel::Point_3(-p.x(), p.y(), p.z()));
+    }
+  return result;
+}
+
+struct Generation
+{
+  std::vector<Sensor_model> sensors;
+  unsigned first_seed;
+  std::size_t seeds, views;
+};
+
+// samples, noise, waves, quantization, drop-out, grazing drop-out, lost, perspective
+std::vector<Sensor_model> all_sensors()
+{
+  return {{30000, 0.05, 0, 0, 0, 0.3, 0, false},        {30000, 0.3, 0, 0, 0.02, 0.7, 0.15, true},
+          {10000, 0.5, 1.5, 0.5, 0.02, 0.7, 0.1, true}, {15000, 1, 1, 0, 0.05, 0.8, 0.2, true},
+          {7000, 2, 0, 0, 0.2, 0.8, 0.05, true},        {2000, 0.2, 0, 0, 0.01, 0.5, 0.05, false},
+          {500, 0.1, 0, 0, 0, 0.3, 0, false},           {150000, 0.5, 0.5, 1, 0.01, 0.7, 0.1, true},
+          {30000, 0.2, 0, 2, 0.1, 0.9, 0.3, false}};
+}
+
+// All pairs of the views of all scenes, the first view in a mirror, and the first view of another scene.
+// Returns the number of settings and of pairs.
+std::pair<std::size_t, std::size_t> for_each_pair(const Generation& generation, const Coefficients& coefficients,
+                                                  const Round_function& function)
+{
+  std::size_t setting = 0, pairs = 0;
+  for (const Sensor_model& sensor : generation.sensors) {
+    for (const std::string kind : {"statue", "pedestal", "plinth", "part", "room"}) {
+      std::optional<Scan> foreign;
+      for (std::size_t s = 0; s < generation.seeds; ++s) {
+        const Simulated_set set(kind, generation.first_seed + unsigned(s), generation.views,
+                                360. / double(generation.views), sensor);
+        std::vector<Scan> scans;
+        for (std::size_t i = 0; i < generation.views; ++i)
+          scans.push_back(scan_of(set.views()[i].image, (i + s) % 3 != 2));
+        const auto pair = [&](const Scan& a, const Scan& b, const CRI::Rigid_motion* truth) {
+          search(setting, a, b, truth, coefficients, function);
+          ++pairs;
+        };
+        for (std::size_t i = 0; i < generation.views; ++i)
+          for (std::size_t j = i + 1; j < generation.views; ++j) {
+            const CRI::Rigid_motion truth = set.motion(i, j);
+            pair(scans[i], scans[j], set.overlap(i, j) > 0 ? &truth : nullptr);
+          }
+        pair(scans[0], scan_of(mirrored(set.views()[1].image), true), nullptr);
+        if (foreign) pair(*foreign, scans[0], nullptr);
+        foreign = scans[0];
+      }
+      std::cerr << kind << ", " << sensor.samples << " samples, noise " << sensor.noise << ": " << pairs
+                << " pairs so far\n";
+      ++setting;
+    }
+  }
+  return {setting, pairs};
+}
+
+// Shares of outcomes, every pair of scans counting the same.
+struct Tally
+{
+  std::array<double, CRI::Outcome::SIZE> shares{}; // sums over the pairs
+  double pairs = 0;
+
+  // UNKNOWN counts where `all` are asked for.
+  void add(const std::array<double, CRI::Outcome::SIZE>& counts, bool all)
+  {
+    double sum = 0;
+    for (std::size_t o = all ? 0 : 1; o < counts.size(); ++o) sum += counts[o];
+    if (!(sum > 0)) return;
+    for (std::size_t o = 0; o < counts.size(); ++o) shares[o] += counts[o] / sum;
+    ++pairs;
+  }
+};
+
+// The tables of the coefficients: what probes meet where the pose is right and overlaps by at least a tenth, and under
+// the candidates. One more pair, in which all outcomes are the same share, keeps each above zero.
+Coefficients measured_tables(const Generation& generation)
+{
+  Tally right, wrong;
+  for_each_pair(generation, {}, [&](const Pair& pair, const CRI::Pose_judge& judge, int round) {
+    if (round == 0) {
+      if (pair.truth) {
+        const CRI::Pose refined = judge.refined(CRI::to_pose(*pair.truth));
+        if (is_right(refined, *pair.truth, *pair.source)) {
+          std::array<double, CRI::Outcome::SIZE> counts{};
+          double agreeing = 0;
+          const auto outcomes = judge.outcomes(refined);
+          for (const std::uint8_t o : outcomes) {
+            ++counts[o];
+            agreeing += o != CRI::Outcome::UNKNOWN && o <= CRI::Outcome::fits;
+          }
+          constexpr double enough = 0.1;
+          if (agreeing >= enough * double(outcomes.size())) right.add(counts, false);
+        }
+      }
+      std::array<double, CRI::Outcome::SIZE> counts{};
+      for (const CRI::Outcome_table* table : {&judge.source_outcomes(), &judge.target_outcomes()})
+        for (std::size_t k = 0; k < table->poses(); ++k)
+          for (std::size_t i = 0; i < table->probes(); ++i) ++counts[(*table)[k][i]];
+      wrong.add(counts, true);
+    }
+  });
+  Coefficients c;
+  const auto fits = [](const Tally& tally, double(&result)[CRI::Outcome::fits]) {
+    double agreeing = 1;
+    for (int o = 1; o <= CRI::Outcome::fits; ++o) agreeing += tally.shares[std::size_t(o)];
+    for (int o = 1; o <= CRI::Outcome::fits; ++o)
+      result[o - 1] = (tally.shares[std::size_t(o)] + 1. / CRI::Outcome::fits) / agreeing;
+  };
+  const auto kinds = [](const Tally& tally, double(&result)[CRI::Outcome::kinds]) {
+    for (int kind = 0; kind < CRI::Outcome::kinds; ++kind) {
+      double sum = 1. / CRI::Outcome::kinds;
+      for (int o = 1; o < CRI::Outcome::SIZE; ++o)
+        if (CRI::Outcome::kind(std::uint8_t(o)) == kind) sum += tally.shares[std::size_t(o)];
+      result[kind] = sum / (tally.pairs + 1);
+    }
+  };
+  kinds(right, c.right);
+  kinds(wrong, c.wrong);
+  fits(right, c.right_fit);
+  fits(wrong, c.wrong_fit);
+  return c;
+}
+
+// What a round says: of each distinct pose the evidence, and which one is right; -1: none.
+struct Choice
+{
+  std::vector<CRI::Pose_evidence> poses;
+  int right;
+  std::size_t setting;
+};
+
+std::vector<Choice> choices_of(const Generation& generation, const Coefficients& coefficients)
+{
+  std::vector<Choice> choices;
+  for_each_pair(generation, coefficients, [&](const Pair& pair, const CRI::Pose_judge& judge, int) {
+    Choice choice;
+    choice.right = -1;
+    choice.setting = pair.setting;
+    for (const CRI::Judged_pose& p : judge.distinct_poses()) {
+      if (choice.right < 0 && pair.truth && is_right(p.pose, *pair.truth, *pair.source))
+        choice.right = int(choice.poses.size());
+      choice.poses.push_back(p.evidence);
+    }
+    if (!choice.poses.empty()) choices.push_back(choice);
+  });
+  return choices;
+}
+
+// The features of which the log-odds are a linear function.
+Eigen::Vector3d features(const CRI::Pose_evidence& e)
+{
+  return {std::sqrt((std::max)(e.nats, 0.)), e.missing, 1};
+}
+
+// Conditional logistic regression by Newton's method, damped; the choices of setting `without` left out. A weak prior,
+// of standard deviation a hundred, keeps it finite where right and wrong do not overlap.
+Coefficients fitted(const std::vector<Choice>& choices, std::size_t without, Coefficients c)
+{
+  Eigen::Vector3d x(0, 0, 0);
+  constexpr double precision = 1e-4;
+  const auto log_likelihood = [&](const Eigen::Vector3d& b, Eigen::Vector3d* gradient, Eigen::Matrix3d* information) {
+    double sum = -precision / 2 * b.squaredNorm();
+    if (gradient) *gradient = -precision * b;
+    if (information) *information = precision * Eigen::Matrix3d::Identity();
+    for (const Choice& choice : choices) {
+      if (choice.setting == without) continue;
+      double greatest = 0;
+      for (const auto& p : choice.poses) greatest = (std::max)(greatest, b.dot(features(p)));
+      double total = std::exp(-greatest);
+      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+      Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+      for (const auto& p : choice.poses) {
+        const Eigen::Vector3d f = features(p);
+        const double e = std::exp(b.dot(f) - greatest);
+        total += e;
+        mean += e * f;
+        square += e * f * f.transpose();
+      }
+      mean /= total;
+      sum -= greatest + std::log(total);
+      if (choice.right >= 0) sum += b.dot(features(choice.poses[std::size_t(choice.right)]));
+      if (gradient) {
+        *gradient -= mean;
+        if (choice.right >= 0) *gradient += features(choice.poses[std::size_t(choice.right)]);
+      }
+      if (information) *information += square / total - mean * mean.transpose();
+    }
+    return sum;
+  };
+  double value = log_likelihood(x, nullptr, nullptr);
+  constexpr int most_steps = 100;
+  for (int i = 0; i < most_steps; ++i) {
+    Eigen::Vector3d gradient;
+    Eigen::Matrix3d information;
+    log_likelihood(x, &gradient, &information);
+    Eigen::Vector3d step = information.ldlt().solve(gradient);
+    double next = log_likelihood(x + step, nullptr, nullptr);
+    while (next < value && step.norm() > 1e-9) {
+      step /= 2;
+      next = log_likelihood(x + step, nullptr, nullptr);
+    }
+    x += step;
+    const bool is_done = next - value < 1e-9 * std::abs(value);
+    value = next;
+    if (is_done) break;
+  }
+  c.slope = x[0];
+  c.missing = x[1];
+  c.offset = x[2];
+  return c;
+}
+
+// The most probable pose of a choice: its probability, and whether it is the right one.
+struct Answer
+{
+  double probability;
+  bool is_right;
+};
+
+Answer answer(const Choice& choice, const Coefficients& c)
+{
+  std::vector<CRI::Judged_pose> poses(choice.poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    poses[i].log_odds = CRI::log_odds(choice.poses[i].nats, choice.poses[i].missing, c);
+  CRI::share_probability(poses, &CRI::Judged_pose::log_odds);
+  const auto best =
+      std::max_element(poses.begin(), poses.end(), [](const CRI::Judged_pose& a, const CRI::Judged_pose& b) {
+        return a.probability < b.probability;
+      });
+  return {best->probability, best - poses.begin() == choice.right};
+}
+
+struct Calibration
+{
+  double brier = 0, error = 0; // expected calibration error
+  std::size_t believed = 0, believed_and_wrong = 0;
+};
+
+// Prints how often answers are right by their probability.
+Calibration print_reliability(const std::vector<Answer>& answers)
+{
+  Calibration result;
+  const std::array<double, 8> edges = {0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0001};
+  std::cout << "probability  answers   right  share right  mean probability\n" << std::fixed << std::setprecision(4);
+  const auto n = double(answers.size());
+  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+    double count = 0, right = 0, sum = 0;
+    for (const Answer& a : answers)
+      if (a.probability >= edges[e] && a.probability < edges[e + 1]) {
+        ++count;
+        right += double(a.is_right);
+        sum += a.probability;
+      }
+    if (count > 0) result.error += std::abs(right - sum) / n;
+    std::cout << std::setprecision(2) << edges[e] << " - " << (std::min)(edges[e + 1], 1.) << std::setw(9) << int(count)
+              << std::setw(8) << int(right) << std::setprecision(4) << std::setw(12) << (count > 0 ? right / count : 0)
+              << std::setw(14) << (count > 0 ? sum / count : 0) << '\n';
+  }
+  for (const Answer& a : answers) {
+    result.brier += std::pow(a.probability - double(a.is_right), 2) / n;
+    result.believed += a.probability >= CRI::believed;
+    result.believed_and_wrong += a.probability >= CRI::believed && !a.is_right;
+  }
+  std::cout << answers.size() << " answers, Brier score " << result.brier << ", expected calibration error "
+            << result.error << "; believed " << result.believed << ", of these wrong " << result.believed_and_wrong
+            << '\n';
+  return result;
+}
+
+void write_header(std::ostream& out, const Coefficients& c, const std::string& how)
+{
+  out << "// Copyright (c) 2026 The Crude_registration authors.\n// All rights reserved.\n//\n"
+         "// This file is part of the CGAL package Crude_registration.\n//\n// $"
+         "URL$\n// $"
+         "Id$\n// SPDX-License-Identifier: GPL-3.0-or-later\n//\n"
+         "// Author(s)     : The Crude_registration authors\n\n"
+         "#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n"
+         "#define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n\n"
+         "// What was measured of right and wrong poses of generated scans, by which evidence is weighed: written by\n"
+         "// benchmark/Crude_registration/fit_confidence, and not by hand.\n"
+      << how
+      << "\nnamespace CGAL {\nnamespace Crude_registration {\nnamespace internal {\n\n"
+         "struct Evidence_coefficients\n{\n"
+      << std::setprecision(5);
+  const auto list = [&](const char* name, const double* values, std::size_t n) {
+    out << "  double " << name << '[' << n << "] = {";
+    for (std::size_t i = 0; i < n; ++i) out << (i > 0 ? ", " : "") << values[i];
+    out << "};\n";
+  };
+  out << "  // The shares of the outcomes, of the probes that have one, where the pose is right: agrees, disagrees, "
+         "in\n"
+         "  // free space, missing.\n";
+  list("right", c.right, 4);
+  out << "  // Their shares of all probes under the candidates of a pair.\n";
+  list("wrong", c.wrong, 4);
+  out << "  // Of the probes that agree where the pose is right, by residual (up to 1/8, 1/4, 1/2, 1 of the "
+         "tolerance),\n"
+         "  // and for each of these by the angle between the normals (up to 1/3, 2/3, 1 of the tolerance).\n";
+  list("right_fit", c.right_fit, 12);
+  out << "  // The same under the candidates of a pair.\n";
+  list("wrong_fit", c.wrong_fit, 12);
+  out << "  // log( P(right) / P(none) ) = slope sqrt(evidence a probe) + missing (share of the probes that go "
+         "missing, of\n"
+         "  // those that agree or do) + offset.\n  double slope = "
+      << c.slope << ";\n  double missing = " << c.missing << ";\n  double offset = " << c.offset
+      << ";\n};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
+         "#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n";
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try {
+    Generation generation;
+    std::string output;
+    std::vector<std::size_t> chosen;
+    po::options_description options("fit_confidence: measures what the judgement of poses needs to know");
+    options.add_options()("help,h", "this text")("seeds", po::value(&generation.seeds)->default_value(3),
+                                                 "scenes of each kind")(
+        "first-seed", po::value(&generation.first_seed)->default_value(101),
+        "of the scenes")("views", po::value(&generation.views)->default_value(6), "of each scene")(
+        "sensors", po::value(&chosen)->multitoken(), "numbers of the sensors, from 0; default: all")(
+        "check",
+        "judge the coefficients that there are, on these scenes; the exit code says whether they are calibrated")(
+        "output", po::value(&output), "the header to write");
+    po::variables_map values;
+    if (!benchmark_tools::read_options(argc, argv, options, values)) return EXIT_SUCCESS;
+    generation.sensors = all_sensors();
+    if (!chosen.empty()) {
+      std::vector<Sensor_model> some;
+      for (const std::size_t i : chosen) some.push_back(generation.sensors.at(i));
+      generation.sensors = some;
+    }
+
+    std::vector<Answer> answers;
+    if (values.count("check") != 0) {
+      for (const Choice& choice : choices_of(generation, {})) answers.push_back(answer(choice, {}));
+      const Calibration calibration = print_reliability(answers);
+      // As many as may be wrong by the probabilities themselves, and twice their standard deviation.
+      const double expected = (1 - CRI::believed) * double(calibration.believed);
+      const bool is_calibrated =
+          double(calibration.believed_and_wrong) <= expected + 2 * std::sqrt(expected) && calibration.error <= 0.05;
+      return is_calibrated ? EXIT_SUCCESS : EXIT_FAILURE;
+    }
+
+    // Tables by other scenes than those that the coefficients are fitted to.
+    Generation for_tables = generation;
+    for_tables.first_seed += 1000;
+    for_tables.seeds = 1;
+    const Coefficients tables = measured_tables(for_tables);
+    const std::vector<Choice> choices = choices_of(generation, tables);
+    const std::size_t settings = choices.empty() ? 0 : choices.back().setting + 1;
+    for (std::size_t without = 0; without < settings; ++without) {
+      const Coefficients c = fitted(choices, without, tables);
+      for (const Choice& choice : choices)
+        if (choice.setting == without) answers.push_back(answer(choice, c));
+    }
+    const Calibration calibration = print_reliability(answers);
+    const Coefficients c = fitted(choices, settings, tables);
+    std::cout << "slope " << c.slope << ", missing " << c.missing << ", offset " << c.offset << '\n';
+    if (!output.empty()) {
+      std::ostringstream how;
+      how << "// " << settings << " settings, seeds " << generation.first_seed << " to "
+          << generation.first_seed + generation.seeds - 1 << ", " << choices.size()
+          << " answers; in cross-validation by setting the Brier\n// score is " << std::setprecision(3)
+          << calibration.brier << ", the expected calibration error " << calibration.error << ", and of "
+          << calibration.believed << " answers that were believed\n// " << calibration.believed_and_wrong
+          << " were wrong.\n";
+      CR::write_file(output, [&](std::ostream& out) { write_header(out, c, how.str()); });
+    }
+  } catch (const std::exception& e) {
+    std::cerr << "fit_confidence: " << e.what() << '\n';
+    return EXIT_FAILURE;
+  }
+}
