@@ -18,6 +18,7 @@ set(rooms
   "Scan.h"
   "IO/.*"
   "register_scans.h"
+  "judge_motion.h"
   "register_meshes.h"
   "all_headers.h")
 

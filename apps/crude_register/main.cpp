@@ -21,6 +21,7 @@ namespace {
 
 const char* const usage =
     R"(usage: crude_register register SOURCE TARGET [OPTION...]   find the motion that maps SOURCE onto TARGET
+       crude_register judge SOURCE TARGET --motion FILE    say of a motion that somebody found whether it is right
        crude_register info SCAN [OPTION...]                say what is in a scan, and what the method makes of it
        crude_register simulate --output DIR [OPTION...]    write range scans of a generated body, with their poses
        crude_register COMMAND --help                       the options of a command
@@ -34,6 +35,7 @@ int run(const std::vector<std::string>& arguments)
   const std::string& command = arguments.front();
   const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
   if (command == "register") return run_register(rest);
+  if (command == "judge") return run_judge(rest);
   if (command == "info") return run_info(rest);
   if (command == "simulate") return run_simulate(rest);
   if (command == "--help" || command == "-h" || command == "help") {

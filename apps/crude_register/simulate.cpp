@@ -41,6 +41,8 @@ int run_simulate(const std::vector<std::string>& arguments)
   add("quantization", po::value<double>()->default_value(0), "step of the depths, in distances of samples");
   add("drop-out", po::value<double>()->default_value(0.01), "share of samples lost where the surface faces the sensor");
   add("grazing-drop-out", po::value<double>()->default_value(0.8), "share of samples lost at grazing angles");
+  add("pedestal", po::value<double>(),
+      "side of a square pedestal that the body, which is about 2 tall, stands on; half as high; none if not given");
   add("perspective", "lines of sight from one point, instead of parallel ones");
   add("resolution", po::value<int>()->default_value(96), "cells along the body");
   add("seed", po::value<unsigned>()->default_value(0), "which body, and which noise");
@@ -60,6 +62,12 @@ int run_simulate(const std::vector<std::string>& arguments)
 
   Mesh body;
   CR::make_statue(body, map["resolution"].as<int>(), CR::parameters::random_seed(seed));
+  if (const auto side = value_of<double>(map, "pedestal")) {
+    if (!(*side > 0 && std::isfinite(*side))) throw Usage_error("--pedestal takes a length above zero");
+    // The foot is in it, so that no light falls between.
+    const double top = CGAL::Polygon_mesh_processing::bbox(body).zmin() + 0.15;
+    CR::make_pedestal(body, *side, top - *side / 2, top);
+  }
   const CR::Simulated_scene scene(body);
   make_folder(folder);
   std::ostringstream poses;

@@ -39,6 +39,7 @@
 #include <functional>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -273,67 +274,93 @@ std::vector<Choice> choices_of(const Generation& generation, const Coefficients&
   return choices;
 }
 
-// The features of which the log-odds are a linear function.
-Eigen::Vector3d features(const CRI::Pose_evidence& e)
+using Features = Eigen::Vector4d;
+using Information = Eigen::Matrix4d;
+
+// What the log-odds are a linear function of; `surfels` as in Evidence_coefficients.
+Features features(const CRI::Pose_evidence& e, double surfels)
 {
-  return {std::sqrt((std::max)(e.nats, 0.)), e.missing, 1};
+  return {std::sqrt(e.surfels / (e.surfels + surfels) * (std::max)(e.nats, 0.)), e.residual, std::sqrt(e.violations),
+          1};
 }
 
-// Conditional logistic regression by Newton's method, damped; the choices of setting `without` left out. A weak prior,
-// of standard deviation a hundred, keeps it finite where right and wrong do not overlap.
-Coefficients fitted(const std::vector<Choice>& choices, std::size_t without, Coefficients c)
+// The logarithm of the likelihood of the choices, but of those of setting `without`, with a weak prior of standard
+// deviation a hundred, which keeps what maximises it finite where right and wrong do not overlap.
+double log_likelihood(const std::vector<Choice>& choices, std::size_t without, double surfels, const Features& b,
+                      Features* gradient = nullptr, Information* information = nullptr)
 {
-  Eigen::Vector3d x(0, 0, 0);
   constexpr double precision = 1e-4;
-  const auto log_likelihood = [&](const Eigen::Vector3d& b, Eigen::Vector3d* gradient, Eigen::Matrix3d* information) {
-    double sum = -precision / 2 * b.squaredNorm();
-    if (gradient) *gradient = -precision * b;
-    if (information) *information = precision * Eigen::Matrix3d::Identity();
-    for (const Choice& choice : choices) {
-      if (choice.setting == without) continue;
-      double greatest = 0;
-      for (const auto& p : choice.poses) greatest = (std::max)(greatest, b.dot(features(p)));
-      double total = std::exp(-greatest);
-      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-      Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-      for (const auto& p : choice.poses) {
-        const Eigen::Vector3d f = features(p);
-        const double e = std::exp(b.dot(f) - greatest);
-        total += e;
-        mean += e * f;
-        square += e * f * f.transpose();
-      }
-      mean /= total;
-      sum -= greatest + std::log(total);
-      if (choice.right >= 0) sum += b.dot(features(choice.poses[std::size_t(choice.right)]));
-      if (gradient) {
-        *gradient -= mean;
-        if (choice.right >= 0) *gradient += features(choice.poses[std::size_t(choice.right)]);
-      }
-      if (information) *information += square / total - mean * mean.transpose();
+  double sum = -precision / 2 * b.squaredNorm();
+  if (gradient) *gradient = -precision * b;
+  if (information) *information = precision * Information::Identity();
+  for (const Choice& choice : choices) {
+    if (choice.setting == without) continue;
+    std::vector<Features> poses;
+    double greatest = 0;
+    for (const auto& p : choice.poses) {
+      poses.push_back(features(p, surfels));
+      greatest = (std::max)(greatest, b.dot(poses.back()));
     }
-    return sum;
-  };
-  double value = log_likelihood(x, nullptr, nullptr);
+    double total = std::exp(-greatest);
+    Features mean = Features::Zero();
+    Information square = Information::Zero();
+    for (const Features& f : poses) {
+      const double e = std::exp(b.dot(f) - greatest);
+      total += e;
+      mean += e * f;
+      if (information) square += e * f * f.transpose();
+    }
+    mean /= total;
+    sum -= greatest + std::log(total);
+    if (choice.right >= 0) sum += b.dot(poses[std::size_t(choice.right)]);
+    if (gradient) {
+      *gradient -= mean;
+      if (choice.right >= 0) *gradient += poses[std::size_t(choice.right)];
+    }
+    if (information) *information += square / total - mean * mean.transpose();
+  }
+  return sum;
+}
+
+// Conditional logistic regression by Newton's method, damped, for a number of surfels; the likelihood.
+double fit(const std::vector<Choice>& choices, std::size_t without, double surfels, Features& x)
+{
+  x = Features::Zero();
+  double value = log_likelihood(choices, without, surfels, x);
   constexpr int most_steps = 100;
   for (int i = 0; i < most_steps; ++i) {
-    Eigen::Vector3d gradient;
-    Eigen::Matrix3d information;
-    log_likelihood(x, &gradient, &information);
-    Eigen::Vector3d step = information.ldlt().solve(gradient);
-    double next = log_likelihood(x + step, nullptr, nullptr);
+    Features gradient;
+    Information information;
+    log_likelihood(choices, without, surfels, x, &gradient, &information);
+    Features step = information.ldlt().solve(gradient);
+    double next = log_likelihood(choices, without, surfels, x + step);
     while (next < value && step.norm() > 1e-9) {
       step /= 2;
-      next = log_likelihood(x + step, nullptr, nullptr);
+      next = log_likelihood(choices, without, surfels, x + step);
     }
     x += step;
     const bool is_done = next - value < 1e-9 * std::abs(value);
     value = next;
     if (is_done) break;
   }
-  c.slope = x[0];
-  c.missing = x[1];
-  c.offset = x[2];
+  return value;
+}
+
+// The most likely coefficients, of the number of surfels to within a factor of two.
+Coefficients fitted(const std::vector<Choice>& choices, std::size_t without, Coefficients c)
+{
+  double best = -(std::numeric_limits<double>::max)();
+  for (const double surfels : {25., 50., 100., 200., 400., 800.}) {
+    Features x;
+    const double value = fit(choices, without, surfels, x);
+    if (value <= best) continue;
+    best = value;
+    c.surfels = surfels;
+    c.slope = x[0];
+    c.residual = x[1];
+    c.violations = x[2];
+    c.offset = x[3];
+  }
   return c;
 }
 
@@ -348,7 +375,7 @@ Answer answer(const Choice& choice, const Coefficients& c)
 {
   std::vector<CRI::Judged_pose> poses(choice.poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i)
-    poses[i].log_odds = CRI::log_odds(choice.poses[i].nats, choice.poses[i].missing, c);
+    poses[i].log_odds = CRI::log_odds(choice.poses[i], choice.poses[i].nats, c);
   CRI::share_probability(poses, &CRI::Judged_pose::log_odds);
   const auto best =
       std::max_element(poses.begin(), poses.end(), [](const CRI::Judged_pose& a, const CRI::Judged_pose& b) {
@@ -426,10 +453,13 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
   list("right_fit", c.right_fit, 12);
   out << "  // The same under the candidates of a pair.\n";
   list("wrong_fit", c.wrong_fit, 12);
-  out << "  // log( P(right) / P(none) ) = slope sqrt(evidence a probe) + missing (share of the probes that go "
-         "missing, of\n"
-         "  // those that agree or do) + offset.\n  double slope = "
-      << c.slope << ";\n  double missing = " << c.missing << ";\n  double offset = " << c.offset
+  out << "  // log( P(right) / P(none) ) = slope sqrt(n / (n + surfels) evidence a probe) + residual (RMS of the "
+         "probes that agree,\n"
+         "  // in tolerances) + violations sqrt(probes in free space a probe that agrees) + offset; n: of the scan "
+         "with fewer.\n"
+         "  double surfels = "
+      << c.surfels << ";\n  double slope = " << c.slope << ";\n  double residual = " << c.residual
+      << ";\n  double violations = " << c.violations << ";\n  double offset = " << c.offset
       << ";\n};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
          "#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n";
 }
@@ -485,7 +515,8 @@ int main(int argc, char** argv)
     }
     const Calibration calibration = print_reliability(answers);
     const Coefficients c = fitted(choices, settings, tables);
-    std::cout << "slope " << c.slope << ", missing " << c.missing << ", offset " << c.offset << '\n';
+    std::cout << "surfels " << c.surfels << ", slope " << c.slope << ", residual " << c.residual << ", violations "
+              << c.violations << ", offset " << c.offset << '\n';
     if (!output.empty()) {
       std::ostringstream how;
       how << "// " << settings << " settings, seeds " << generation.first_seed << " to "

@@ -68,7 +68,7 @@ public:
     if (kind == "pedestal" || kind == "plinth") {
       const CGAL::Bbox_3 b = CGAL::Polygon_mesh_processing::bbox(mesh);
       const double side = kind == "plinth" ? 1.7 : 1.3, height = kind == "plinth" ? 1.3 : 0.7;
-      add_box(mesh, -side / 2, -side / 2, b.zmin() + 0.15 - height, side, side, height);
+      CGAL::Crude_registration::make_pedestal(mesh, side, b.zmin() + 0.15 - height, b.zmin() + 0.15);
     }
     const CGAL::Crude_registration::Simulated_scene scene(mesh);
     const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);

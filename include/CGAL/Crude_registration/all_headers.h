@@ -25,6 +25,7 @@
 #include <CGAL/Crude_registration/Registration_status.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/Sensor.h>
+#include <CGAL/Crude_registration/judge_motion.h>
 #include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
 #include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
 #include <CGAL/Crude_registration/matching/Trihedron_candidates.h>

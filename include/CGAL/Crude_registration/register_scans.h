@@ -97,16 +97,22 @@ auto candidate_generator(const NamedParameters& np, const std::string& function)
   return with_parameters(parameter(np, internal_np::candidates, Oriented_pair_candidates()), np, function, 0);
 }
 
+// What the pipeline, which may exchange the two, makes the candidates with. All is kept by reference.
+template <class ConcurrencyTag, class Kernel, class Generator>
+Candidate_factory candidate_factory(const Generator& generator, const Scan<Kernel>& source, const Scan<Kernel>& target)
+{
+  return [&](const Reduced_scan& a, const Reduced_scan&) {
+    return &a == &source.reduced() ? candidates_of<ConcurrencyTag>(generator, source, target, 0)
+                                   : candidates_of<ConcurrencyTag>(generator, target, source, 0);
+  };
+}
+
 template <class ConcurrencyTag, class Kernel, class Generator>
 Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
                                            const Generator& generator, Run_control& control)
 {
-  // The pipeline may exchange the two.
-  const auto make_candidates = [&](const Reduced_scan& a, const Reduced_scan&) {
-    return &a == &source.reduced() ? candidates_of<ConcurrencyTag>(generator, source, target, 0)
-                                   : candidates_of<ConcurrencyTag>(generator, target, source, 0);
-  };
-  return to_result<Kernel>(register_reduced_scans(source.reduced(), target.reduced(), make_candidates,
+  return to_result<Kernel>(register_reduced_scans(source.reduced(), target.reduced(),
+                                                  candidate_factory<ConcurrencyTag>(generator, source, target),
                                                   execution<ConcurrencyTag>(), control));
 }
 

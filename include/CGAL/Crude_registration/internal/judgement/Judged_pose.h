@@ -31,9 +31,11 @@ struct Agreement
 // What the outcomes of the probes say for a pose.
 struct Pose_evidence
 {
-  double nats = 0;    // a probe: of log( P(outcome | right) / P(outcome | chance) ), as chance is between the two scans
-  double usual = 0;   // the same, as chance is between any two scans
-  double missing = 0; // share of the probes that should have been seen and were not, of those that agree or should
+  double nats = 0;  // a probe: of log( P(outcome | right) / P(outcome | chance) ), as chance is between the two scans
+  double usual = 0; // the same, as chance is between any two scans
+  double residual = 0;   // root mean square of the probes that agree, in tolerances
+  double violations = 0; // probes in free space, for each that agrees
+  double surfels = 0;    // of the scan with fewer
 };
 
 // A pose after refinement, looked at closely.

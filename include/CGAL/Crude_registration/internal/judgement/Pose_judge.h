@@ -17,6 +17,7 @@
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/judgement/Chance.h>
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
+#include <CGAL/Crude_registration/internal/judgement/Verdict.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
 #include <CGAL/Crude_registration/internal/judgement/log_odds.h>
@@ -25,6 +26,8 @@
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -113,10 +116,12 @@ public:
     return pose;
   }
 
+  // Whether two poses count as one.
+  bool are_same(const Pose& a, const Pose& b) const { return are_one(a, b, m_extent); }
+
   // Whether no more has to be looked for.
   static bool is_certain(const std::vector<Judged_pose>& distinct)
   {
-    constexpr double certain = 0.99;
     return !distinct.empty() && distinct.front().probability >= certain;
   }
 
@@ -188,20 +193,27 @@ private:
     std::vector<std::size_t> near;
     for (std::size_t k = 0; k < m_candidates.size(); ++k)
       if (are_one(judged.pose, m_candidates[k], m_extent)) near.push_back(k);
-    std::size_t agreeing = 0, missing = 0;
+    // The middle of each bin of the residuals.
+    constexpr std::array<double, Outcome::residual_bins> residuals = {0.0625, 0.1875, 0.375, 0.75};
+    double agreeing = 1, violating = 0, squares = residuals.back() * residuals.back(); // as if one more agreed, badly
     for (const auto* outcomes : {&source, &target})
       for (const std::uint8_t o : *outcomes) {
-        agreeing += o != Outcome::UNKNOWN && o <= Outcome::fits;
-        missing += o == Outcome::MISSING;
+        violating += double(o == Outcome::IN_FREE_SPACE);
+        if (o == Outcome::UNKNOWN || o > Outcome::fits) continue;
+        const double u = residuals[std::size_t(o - 1) / Outcome::angle_bins];
+        squares += u * u;
+        ++agreeing;
       }
     const auto probes = double(source.size() + target.size());
     judged.evidence.nats =
         (source_chance.evidence(source.data(), near) + target_chance.evidence(target.data(), near)) / probes;
     judged.evidence.usual =
         (source_chance.usual_evidence(source.data()) + target_chance.usual_evidence(target.data())) / probes;
-    judged.evidence.missing = double(missing) / double(agreeing + missing + 1);
-    judged.log_odds = log_odds(judged.evidence.nats, judged.evidence.missing, m_coefficients);
-    judged.usual_log_odds = log_odds(judged.evidence.usual, judged.evidence.missing, m_coefficients);
+    judged.evidence.residual = std::sqrt(squares / agreeing);
+    judged.evidence.violations = violating / agreeing;
+    judged.evidence.surfels = double((std::min)(m_source.fine.surfels.size(), m_target.fine.surfels.size()));
+    judged.log_odds = log_odds(judged.evidence, judged.evidence.nats, m_coefficients);
+    judged.usual_log_odds = log_odds(judged.evidence, judged.evidence.usual, m_coefficients);
   }
 
   const Reduced_scan& m_source;

@@ -29,6 +29,9 @@ constexpr double plausible = 0.5;
 // The confidence from which on it is believed.
 constexpr double believed = 0.9;
 
+// The probability from which on, or from one less it on, nothing more is looked for.
+constexpr double certain = 0.99;
+
 struct Verdict
 {
   Registration_status status = NOT_REGISTERED;

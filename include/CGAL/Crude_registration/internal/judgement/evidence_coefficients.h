@@ -22,20 +22,24 @@ struct Evidence_coefficients
 {
   // The shares of the outcomes, of the probes that have one, where the pose is right: agrees, disagrees, in free space,
   // missing.
-  double right[4] = {0.85, 0.10, 0.005, 0.035};
+  double right[4] = {0.75015, 0.19867, 0.00076275, 0.050414};
   // Their shares of all probes under the candidates of a pair.
-  double wrong[4] = {0.2, 0.2, 0.2, 0.2};
+  double wrong[4] = {0.19883, 0.069621, 0.019507, 0.048985};
   // Of the probes that agree where the pose is right, by residual (up to 1/8, 1/4, 1/2, 1 of the tolerance), and for
   // each of these by the angle between the normals (up to 1/3, 2/3, 1 of the tolerance).
-  double right_fit[12] = {0.3614, 0.1221, 0.0195, 0.1709, 0.0811, 0.0166,
-                          0.0713, 0.0586, 0.0234, 0.0078, 0.0195, 0.0244};
+  double right_fit[12] = {0.32564,  0.15589,  0.058663, 0.097113, 0.090777, 0.044371,
+                          0.045877, 0.069443, 0.050426, 0.011335, 0.022715, 0.027748};
   // The same under the candidates of a pair.
-  double wrong_fit[12] = {0.08, 0.064, 0.033, 0.072, 0.062, 0.033, 0.099, 0.109, 0.059, 0.116, 0.159, 0.104};
-  // log( P(right) / P(none) ) = slope sqrt(evidence a probe) + missing (share of the probes that go missing, of those
-  // that agree or do) + offset.
-  double slope = 28.5;
-  double missing = -16.78;
-  double offset = -13.08;
+  double wrong_fit[12] = {0.2339,   0.10161,  0.042419, 0.11514, 0.077224, 0.036675,
+                          0.087991, 0.089417, 0.051877, 0.04779, 0.066165, 0.04979};
+  // log( P(right) / P(none) ) = slope sqrt(n / (n + surfels) evidence a probe) + residual (RMS of the probes that
+  // agree, in tolerances) + violations sqrt(probes in free space a probe that agrees) + offset; n: of the scan with
+  // fewer surfels.
+  double surfels = 200;
+  double slope = 17.16;
+  double residual = -9.69;
+  double violations = -17.03;
+  double offset = -7.24;
 };
 
 } // namespace internal

@@ -25,12 +25,16 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// The logarithm of the odds that a pose is right, against none being right: evidence, that grows with the area that
-// agrees as the square of how many standard deviations it is from chance, and the share that goes missing, which says
-// more than its probes, as what is missing is missing together.
-inline double log_odds(double nats, double missing, const Evidence_coefficients& c = {})
+// The logarithm of the odds that a pose is right, against none being right. What the probes say grows with the area
+// that agrees, and so does its variance: the root tells how far it is from chance. Probes side by side say the same, so
+// that it matters little how many there are, unless they are few. The residual tells wrong poses, which fill the
+// tolerance evenly, and what is in free space is there together, and says more than its probes. `nats`: of the
+// evidence, as chance is between the two scans or as it is between any.
+inline double log_odds(const Pose_evidence& evidence, double nats, const Evidence_coefficients& c = {})
 {
-  return c.slope * std::sqrt((std::max)(nats, 0.)) + c.missing * missing + c.offset;
+  const double effective = evidence.surfels / (evidence.surfels + c.surfels);
+  return c.slope * std::sqrt(effective * (std::max)(nats, 0.)) + c.residual * evidence.residual +
+         c.violations * std::sqrt(evidence.violations) + c.offset;
 }
 
 // The probabilities of distinct poses: P_k = exp(x_k) / (1 + sum_j exp(x_j)), x the log-odds `key`, the one being for

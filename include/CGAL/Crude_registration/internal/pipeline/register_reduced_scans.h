@@ -12,7 +12,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_PIPELINE_REGISTER_REDUCED_SCANS_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_PIPELINE_REGISTER_REDUCED_SCANS_H
 
-// The five steps of a registration, for scans that are reduced: propose, judge, refine, conclude.
+// The steps of a registration of scans that are reduced: propose, judge, refine, conclude.
 
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
@@ -54,6 +54,20 @@ struct Registration_outcome
 Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,
                                             const Candidate_factory& make_candidates, Execution execution,
                                             Run_control& control);
+
+// What is to be said of a motion that somebody found, a to b in the frames of the input: of what refinement makes of
+// it, as of an answer of a registration; and how far that is from it, as a root mean square over the source's surface
+// where the scans overlap, in sampling distances.
+struct Judgement_outcome
+{
+  Registration_outcome registration;
+  double displacement = 0;
+};
+
+// The candidates show what comes about by chance, and are rivals.
+Judgement_outcome judge_reduced_motion(const Reduced_scan& a, const Reduced_scan& b, const Rigid_motion& motion,
+                                       const Candidate_factory& make_candidates, Execution execution,
+                                       Run_control& control);
 
 } // namespace internal
 } // namespace Crude_registration

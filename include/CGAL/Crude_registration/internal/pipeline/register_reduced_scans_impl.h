@@ -84,22 +84,21 @@ inline double overlap(const Reduced_scan& source, const Reduced_scan& target, co
   return n > 0 ? double(close) / double(n) : 0;
 }
 
-// Rounds of proposals, judged, until one pose is certain or there are no more: the distinct poses, best first. Those of
-// the rounds that were done if the run is stopped.
-inline std::vector<Judged_pose> propose_and_judge(Candidate_source& candidates, Pose_judge& judge, Stage_record& stage,
-                                                  Run_control& control)
+// Rounds of proposals, judged, until `are_enough` says of the judge that they are, or there are no more. False if the
+// run is stopped.
+template <class Predicate>
+void propose_and_judge(Candidate_source& candidates, Pose_judge& judge, Stage_record& stage, Run_control& control,
+                       const Predicate& are_enough)
 {
-  std::vector<Judged_pose> distinct;
   for (;;) {
     control.advance(candidates.progress());
     Proposals proposals;
-    if (!candidates.next(control, proposals) || control.is_stopped()) return distinct;
+    if (!candidates.next(control, proposals) || control.is_stopped()) return;
     const Stage_timer timer(stage);
     judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
-    if (control.is_stopped()) return distinct;
+    if (control.is_stopped()) return;
     stage.count = judge.number_of_judged();
-    distinct = judge.distinct_poses();
-    if (Pose_judge::is_certain(distinct)) return distinct;
+    if (are_enough()) return;
   }
 }
 
@@ -148,9 +147,12 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   outcome.verdict = is_interrupted ? interrupted(outcome.poses) : judge_poses(outcome.poses, is_of_many, named);
 }
 
-CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,
-                                                                           const Candidate_factory& make_candidates,
-                                                                           Execution execution, Run_control& control)
+// What is the same whatever is judged: `poses(judge, is_usual)` gives the poses, the one that is concluded of first, by
+// one or the other kind of chance; `are_enough(judge)` ends the search.
+template <class Poses, class Predicate>
+Registration_outcome registration_of(const Reduced_scan& a, const Reduced_scan& b,
+                                     const Candidate_factory& make_candidates, Execution execution,
+                                     Run_control& control, const Poses& poses, const Predicate& are_enough)
 {
   Registration_outcome outcome;
   outcome.source_has_free_space = a.depths.is_known();
@@ -169,14 +171,15 @@ CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const
   Stage_record judging{"judge"}, refining{"refine"}, concluding{"conclude"};
   const std::unique_ptr<Candidate_source> candidates = make_candidates(source, target);
   Pose_judge judge(source, target, execution, control);
-  outcome.poses = propose_and_judge(*candidates, judge, judging, control);
+  propose_and_judge(*candidates, judge, judging, control, [&] { return are_enough(judge); });
+  outcome.poses = poses(judge, false);
   if (outcome.poses.empty()) {
     outcome.verdict.reason = control.is_stopped() ? "interrupted: no overlap found so far"
                                                   : "no overlap found: no motion brings any part of the scans together";
   } else {
     bool is_of_many = false;
     if (!control.is_stopped() && probability_of_any(outcome.poses) < plausible) {
-      const std::vector<Judged_pose> usual = judge.usual_distinct_poses();
+      const std::vector<Judged_pose> usual = poses(judge, true);
       is_of_many = probability_of_any(usual) >= plausible;
       if (is_of_many) outcome.poses = usual;
     }
@@ -192,6 +195,62 @@ CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const
   }
   for (const Stage_record& s : candidates->stages()) outcome.stages.push_back(s);
   outcome.stages.insert(outcome.stages.end(), {judging, refining, concluding});
+  return outcome;
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,
+                                                                           const Candidate_factory& make_candidates,
+                                                                           Execution execution, Run_control& control)
+{
+  return registration_of(
+      a, b, make_candidates, execution, control,
+      [](const Pose_judge& judge, bool is_usual) {
+        return is_usual ? judge.usual_distinct_poses() : judge.distinct_poses();
+      },
+      [](const Pose_judge& judge) { return Pose_judge::is_certain(judge.distinct_poses()); });
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Reduced_scan& a, const Reduced_scan& b,
+                                                                      const Rigid_motion& motion,
+                                                                      const Candidate_factory& make_candidates,
+                                                                      Execution execution, Run_control& control)
+{
+  const bool is_swapped = are_swapped(a, b);
+  const Reduced_scan &source = is_swapped ? b : a, &target = is_swapped ? a : b;
+  const Rigid_motion own =
+      target.own_from_input * (is_swapped ? motion.inverse() : motion) * source.own_from_input.inverse();
+  // The given one takes the place of what the search found of it.
+  const auto poses = [&](const Pose_judge& judge, bool is_usual) {
+    std::vector<Judged_pose> others = is_usual ? judge.usual_distinct_poses() : judge.distinct_poses();
+    if (others.empty()) return others; // nothing is known of chance
+    Judged_pose given = judge.weighed(judge.refined(to_pose(own)));
+    given.proposed = to_pose(own);
+    if (is_usual) given.log_odds = given.usual_log_odds;
+    std::vector<Judged_pose> all = {given};
+    for (const Judged_pose& p : others)
+      if (!judge.are_same(p.pose, given.pose)) all.push_back(p);
+    share_probability(all, &Judged_pose::log_odds);
+    return all;
+  };
+  Judgement_outcome outcome;
+  outcome.registration =
+      registration_of(a, b, make_candidates, execution, control, poses, [&](const Pose_judge& judge) {
+        const std::vector<Judged_pose> all = poses(judge, false);
+        return !all.empty() && (all.front().probability >= certain || all.front().probability <= 1 - certain);
+      });
+  if (outcome.registration.poses.empty()) return outcome;
+  const Rigid_motion refined = target.own_from_input *
+                               (is_swapped ? outcome.registration.motion.inverse() : outcome.registration.motion) *
+                               source.own_from_input.inverse();
+  double squared = 0;
+  std::size_t n = 0;
+  for (const std::int32_t i : source.fine.probes) {
+    const Vector p = source.fine.surfels[std::size_t(i)].position.cast<double>(), q = refined(p);
+    if (target.fine.field.nearest(q.cast<float>()) < 0) continue; // not where they overlap
+    squared += (own(p) - q).squaredNorm();
+    ++n;
+  }
+  if (n > 0) outcome.displacement = std::sqrt(squared / double(n)) / (std::max)(source.spacing, target.spacing);
   return outcome;
 }
 

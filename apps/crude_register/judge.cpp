@@ -1,0 +1,140 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// crude_register judge: says of a motion that somebody found whether it brings two scans together.
+
+#include "commands.h"
+#include "files.h"
+#include "json.h"
+#include "options.h"
+
+#include <CGAL/Crude_registration/judge_motion.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <iterator>
+#include <limits>
+#include <locale>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Scan = CR::Scan<Kernel>;
+
+// The motion of a file: the rows of a 3 x 4 or a 4 x 4 matrix, or what register --json has printed.
+Transformation read_motion(const std::string& file)
+{
+  std::ifstream in(file);
+  if (!in) throw CR::IO_error(file, "the file cannot be opened");
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::vector<double> m;
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && text[first] == '{') {
+    try {
+      for (const Json& row : Json::parse(text).at("target_from_source"))
+        for (const Json& x : row) m.push_back(x.get<double>());
+    } catch (const Json::exception& e) {
+      throw CR::IO_error(file, std::string("the JSON has no motion target_from_source: ") + e.what());
+    }
+  } else {
+    std::istringstream words(text);
+    words.imbue(std::locale::classic());
+    for (double x = 0; words >> x;) m.push_back(x);
+    if (!words.eof()) throw CR::IO_error(file, "12 or 16 numbers are expected, the rows of a matrix, and nothing else");
+  }
+  const bool has_last_row = m.size() == 16;
+  if (!has_last_row && m.size() != 12)
+    throw CR::IO_error(file, "12 or 16 numbers are expected, the rows of a matrix, not " + std::to_string(m.size()));
+  if (has_last_row && !(m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1))
+    throw CR::IO_error(file, "the last row of the matrix is not 0 0 0 1");
+  return Transformation(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11]);
+}
+
+Scan scan_of(const std::string& file, const std::optional<Point>& viewpoint)
+{
+  const Scan_file contents = CR::read_scan<Kernel>(file);
+  return with_viewpoint(viewpoint, [&](const auto& np) { return Scan(contents, np, file); });
+}
+
+int exit_code_of(CR::Motion_status status)
+{
+  switch (status) {
+  case CR::RIGHT_MOTION:
+    return EXIT_REGISTERED;
+  case CR::REFINABLE_MOTION:
+    return EXIT_AMBIGUOUS;
+  case CR::WRONG_MOTION:
+    break;
+  }
+  return EXIT_NOT_REGISTERED;
+}
+
+} // namespace
+
+int run_judge(const std::vector<std::string>& arguments)
+{
+  po::options_description options("options");
+  auto add = options.add_options();
+  add("motion", po::value<std::string>()->required(),
+      "file of the motion that maps SOURCE onto TARGET: the rows of a 3 x 4 or 4 x 4 matrix, or the JSON of register");
+  add("viewpoint", po::value<std::string>(),
+      "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
+  add("json", "print JSON, the same bytes for the same scans");
+  const auto given = parse("judge SOURCE TARGET --motion FILE [OPTION...]",
+                           "Says of a motion that somebody found whether it maps SOURCE onto TARGET.\n"
+                           "Exit code: 0 right, 2 refinable, 3 wrong, 1 error.\n",
+                           options, {"SOURCE", "TARGET"}, arguments);
+  if (!given) return 0;
+  const po::variables_map& map = *given;
+  const std::optional<Point> viewpoint = viewpoint_of(map);
+  const std::string source = map["SOURCE"].as<std::string>(), target = map["TARGET"].as<std::string>(),
+                    file = map["motion"].as<std::string>();
+  const Transformation motion = read_motion(file);
+  const Scan source_scan = scan_of(source, viewpoint), target_scan = scan_of(target, viewpoint);
+  const auto judged = [&] {
+    try {
+      return CR::judge_motion<CGAL::Parallel_if_available_tag>(source_scan, target_scan, motion);
+    } catch (const std::invalid_argument& e) {
+      throw CR::IO_error(file, e.what());
+    }
+  };
+  const CR::Motion_judgement<Kernel> judgement = judged();
+  const auto& refined = judgement.refined();
+  std::ostringstream status;
+  status << judgement.status();
+  if (map.count("json") > 0) {
+    Json json = {{"source", source}, {"target", target}, {"motion", file}, {"verdict", status.str()}};
+    json["displacement"] = judgement.displacement();
+    add_result(json["refined"], refined, false);
+    std::cout << to_text(json) << '\n';
+    return exit_code_of(judgement.status());
+  }
+  std::cout << "verdict:      " << status.str() << '\n' << std::setprecision(4);
+  if (!refined.reason().empty()) std::cout << "reason:       " << refined.reason() << '\n';
+  std::cout << "confidence:   " << judgement.confidence() << '\n';
+  for (const std::string& name : refined.free_motions()) std::cout << "free:         " << name << '\n';
+  if (judgement.status() != CR::WRONG_MOTION) {
+    std::cout << "displacement: " << judgement.displacement()
+              << " sampling distances from what refinement makes of it\n"
+              << "overlap:      " << 100 * refined.overlap() << " % of the source\n"
+              << "residual:     " << refined.residual() << " sampling distances\n"
+              << "violations:   " << 100 * refined.free_space_violations() << " % in free space\n"
+              << "refined, from the frame of the source to that of the target:\n"
+              << std::setprecision(12);
+    write_rows(std::cout, refined.transformation(), "  ", "\n");
+    std::cout << "  0 0 0 1\n";
+  }
+  return exit_code_of(judgement.status());
+}
