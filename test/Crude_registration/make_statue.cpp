@@ -15,12 +15,16 @@
 #include <CGAL/Crude_registration/simulation/make_statue.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 
+#include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <Eigen/Eigenvalues>
 
+#include <cmath>
 #include <map>
 
 namespace CR = CGAL::Crude_registration;
@@ -148,4 +152,16 @@ BOOST_AUTO_TEST_CASE(rejects_a_resolution_out_of_range)
 {
   Mesh mesh;
   for (int resolution : {-1, 0, 7, 1001}) BOOST_CHECK_THROW(CR::make_statue(mesh, resolution), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(a_pedestal_is_a_closed_box)
+{
+  Mesh box;
+  CR::make_pedestal(box, 2, -1.5, 0.5);
+  BOOST_TEST(CGAL::is_closed(box));
+  BOOST_TEST(CGAL::Polygon_mesh_processing::is_outward_oriented(box));
+  BOOST_TEST(std::abs(CGAL::Polygon_mesh_processing::volume(box) - 8) < 1e-12);
+  BOOST_TEST((CGAL::Polygon_mesh_processing::bbox(box) == CGAL::Bbox_3(-1, -1, -1.5, 1, 1, 0.5)));
+  BOOST_CHECK_THROW(CR::make_pedestal(box, 0, 0, 1), std::invalid_argument);
+  BOOST_CHECK_THROW(CR::make_pedestal(box, 1, 1, 1), std::invalid_argument);
 }
