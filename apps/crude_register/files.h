@@ -41,6 +41,12 @@ inline Mesh mesh_of(const Scan_file& file, const std::optional<Point>& viewpoint
   return with_viewpoint(viewpoint, [&](const auto& np) { return CR::triangulate_scan(file, np); });
 }
 
+// As if the file said nothing of its sensor.
+inline void forget_sensor(Scan_file& file)
+{
+  file.image.set_sensor(CR::Sensor<Kernel>());
+}
+
 inline std::size_t number_of_samples(const Scan_file& file)
 {
   switch (file.kind) {

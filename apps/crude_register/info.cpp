@@ -52,7 +52,7 @@ int run_info(const std::vector<std::string>& arguments)
   if (!given) return 0;
   const po::variables_map& map = *given;
   const std::string name = map["SCAN"].as<std::string>();
-  const std::optional<Point> viewpoint = viewpoint_of(map);
+  const std::optional<Point> viewpoint = point_of(map, "viewpoint");
   const Scan_file file = CR::read_scan<Kernel>(name);
   Mesh mesh = mesh_of(file, viewpoint);
   if (mesh.number_of_faces() == 0) throw std::invalid_argument(name + ": the scan has no surface: no face is left");

@@ -76,11 +76,12 @@ std::optional<T> value_of(const po::variables_map& map, const char* option)
   return map[option].as<T>();
 }
 
-inline std::optional<Point> viewpoint_of(const po::variables_map& map)
+// Three numbers x,y,z, the value of an option.
+inline std::optional<Point> point_of(const po::variables_map& map, const std::string& option)
 {
-  const std::optional<std::string> text = value_of<std::string>(map, "viewpoint");
+  const std::optional<std::string> text = value_of<std::string>(map, option.c_str());
   if (!text) return std::nullopt;
-  const Usage_error error("--viewpoint takes three numbers x,y,z, not '" + *text + "'");
+  const Usage_error error("--" + option + " takes three numbers x,y,z, not '" + *text + "'");
   std::istringstream in(*text);
   in.imbue(std::locale::classic());
   std::array<double, 3> c{};
@@ -91,6 +92,17 @@ inline std::optional<Point> viewpoint_of(const po::variables_map& map)
   }
   if (in >> std::ws; !in.eof()) throw error;
   return Point(c[0], c[1], c[2]);
+}
+
+// The viewpoint of a side, "source" or "target": its own option's, or the one of --viewpoint, which is for both.
+inline std::optional<Point> viewpoint_of(const po::variables_map& map, const std::string& side)
+{
+  const std::string own = side + "-viewpoint";
+  const std::optional<Point> both = point_of(map, "viewpoint"), given = point_of(map, own);
+  if (both && given) throw Usage_error("--viewpoint is for both scans: --" + own + " excludes it");
+  if (map.count("no-viewpoint") > 0 && (both || given))
+    throw Usage_error(std::string("--no-viewpoint excludes --") + (both ? "viewpoint" : own));
+  return both ? both : given;
 }
 
 // Calls f with the named parameters that say where the sensor was, if it is known.

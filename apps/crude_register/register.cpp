@@ -57,6 +57,8 @@ double seconds_since(Clock::time_point start)
 struct Side
 {
   std::string file;
+  std::optional<Point> viewpoint;
+  bool without_viewpoint = false; // what the file says of its sensor is passed over
   Scan_file contents;
   std::unique_ptr<const Scan> scan;
   double seconds = 0;
@@ -88,8 +90,7 @@ Generator generator_with(const std::optional<double>& f1, const std::optional<do
 
 // Reads, prepares and registers the two scans.
 template <class Generator>
-Answer register_files(std::array<Side, 2>& sides, const Generator& generator, const std::optional<Point>& viewpoint,
-                      double time_budget)
+Answer register_files(std::array<Side, 2>& sides, const Generator& generator, double time_budget)
 {
   const auto left = [&, begin = Clock::now()] { // of the time budget
     constexpr double shortest = 1e-9;
@@ -98,10 +99,11 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, co
   CGAL::for_each<CGAL::Parallel_if_available_tag>(sides, [&](Side& side) {
     try {
       side.contents = CR::read_scan<Kernel>(side.file);
+      if (side.without_viewpoint) forget_sensor(side.contents);
       const auto start = Clock::now();
       const auto np = CR::parameters::time_budget(left()).candidates(generator);
-      side.scan = viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*viewpoint), side.file)
-                            : std::make_unique<const Scan>(side.contents, np, side.file);
+      side.scan = side.viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*side.viewpoint), side.file)
+                                 : std::make_unique<const Scan>(side.contents, np, side.file);
       side.seconds = seconds_since(start);
     } catch (const CR::Preparation_interrupted& interrupted) {
       side.interruption = interrupted.what();
@@ -223,9 +225,11 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("output", po::value<std::string>(),
       "folder for source_moved.ply, target.ply and motion.txt (the 4 x 4 matrix); "
       "made if missing, written unless the scans are not registered");
-  add("viewpoint", po::value<std::string>(),
-      "x,y,z of the sensor, in each scan's own frame, for scans whose files do "
-      "not tell it");
+  add("source-viewpoint", po::value<std::string>(),
+      "x,y,z of the sensor that saw the source, in the source's frame, where its file does not tell it");
+  add("target-viewpoint", po::value<std::string>(), "the same for the target, in the target's frame");
+  add("viewpoint", po::value<std::string>(), "both: the same numbers in each scan's own frame");
+  add("no-viewpoint", "pass over what the files say of their sensors");
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
   add("time-budget", po::value<double>(),
       "seconds from the start after which preparation and search end, with the best so far");
@@ -246,7 +250,6 @@ int run_register(const std::vector<std::string>& arguments)
   if (!given) return 0;
   const po::variables_map& map = *given;
 
-  const std::optional<Point> viewpoint = viewpoint_of(map);
   const std::optional<int> threads = value_of<int>(map, "threads");
   if (threads && *threads < 1) throw Usage_error("--threads takes a number above zero");
 #ifdef CGAL_LINKED_WITH_TBB
@@ -264,11 +267,15 @@ int run_register(const std::vector<std::string>& arguments)
   std::array<Side, 2> sides;
   sides[0].file = map["SOURCE"].as<std::string>();
   sides[1].file = map["TARGET"].as<std::string>();
+  for (std::size_t i = 0; i < 2; ++i) {
+    sides[i].viewpoint = viewpoint_of(map, i == 0 ? "source" : "target");
+    sides[i].without_viewpoint = map.count("no-viewpoint") > 0;
+  }
   const Answer answer = [&] {
     if (method == "pairs")
-      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), viewpoint, time_budget);
+      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget);
     if (method == "trihedra")
-      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), viewpoint, time_budget);
+      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), time_budget);
     throw Usage_error("--method takes pairs or trihedra, not '" + method + "'");
   }();
   const Result& result = answer.result;
@@ -276,13 +283,14 @@ int run_register(const std::vector<std::string>& arguments)
   std::optional<Error> error;
   std::vector<std::string> written;
   if (result.status() != CR::NOT_REGISTERED && (output || poses_file)) {
-    const Mesh source = mesh_of(sides[0].contents, viewpoint);
+    const Mesh source = mesh_of(sides[0].contents, sides[0].viewpoint);
     if (poses_file) {
       const auto s = poses.find(base_name(sides[0].file)), t = poses.find(base_name(sides[1].file));
       if (s == poses.end() || t == poses.end()) throw CR::IO_error(*poses_file, "a pose of the two scans is missing");
       error = error_of(result.transformation(), t->second.inverse() * s->second, source);
     }
-    if (output) written = write_output(*output, result.transformation(), source, mesh_of(sides[1].contents, viewpoint));
+    if (output)
+      written = write_output(*output, result.transformation(), source, mesh_of(sides[1].contents, sides[1].viewpoint));
   }
 
   if (map.count("json") > 0) print_json(sides, answer, error, written, map.count("times") > 0);

@@ -149,6 +149,12 @@ rejects "--f1" register $pair --f1 x
 rejects "--threads" register $pair --threads 0
 rejects "--viewpoint" register $pair --viewpoint 1,2
 rejects "--viewpoint" register $pair --viewpoint 1,2,3,4
+for side in source target; do
+  rejects "--$side-viewpoint" register $pair --$side-viewpoint 1,x,2
+  rejects "--$side-viewpoint" register $pair --$side-viewpoint 1,2,3 --viewpoint 1,2,3
+  rejects "--no-viewpoint" register $pair --$side-viewpoint 1,2,3 --no-viewpoint
+done
+rejects "--no-viewpoint" register $pair --viewpoint 1,2,3 --no-viewpoint
 rejects "nowhere.txt" register $pair --poses nowhere.txt
 echo "scan_0.ply 1 0 0 0 0 1 0 0 0 0 1" > short.txt
 rejects "short.txt:1: " register $pair --poses short.txt
@@ -181,6 +187,24 @@ program=./limited.sh
 rejects "out of memory" register large.xyz large.xyz --output nothing --threads 1
 [ -e nothing ] && fail "something is written although memory ran out"
 program=$unlimited
+
+# Points in two frames: the viewpoint of a side is in that side's frame, and only there.
+for i in 0 1; do
+  awk -v i=$i 'body && NF == 3 { if (i == 1) { print -$2 + 500, $1 - 300, $3 + 40 } else print } /^end_header/ { body = 1 }' \
+    scans/scan_$i.ply > points_$i.xyz
+  awk -v i=$i '/viewing_direction/ { x = -4000 * $3; y = -4000 * $4; z = -4000 * $5
+      if (i == 1) print -y + 500 "," x - 300 "," z + 40; else print x "," y "," z; exit }' scans/scan_$i.ply > sensor_$i.txt
+done
+source_sensor=$(cat sensor_0.txt) target_sensor=$(cat sensor_1.txt)
+expect 0 register points_0.xyz points_1.xyz --source-viewpoint "$source_sensor" --target-viewpoint "$target_sensor" --json
+cp out.txt two_viewpoints.json
+expect 0 register points_0.xyz points_1.xyz --source-viewpoint "$source_sensor" --target-viewpoint "$target_sensor" \
+  --threads 1 --json
+cmp -s out.txt two_viewpoints.json || fail "the number of threads changes the answer with two viewpoints"
+expect 0 register points_0.xyz points_0.xyz --viewpoint "$source_sensor" --json
+cp out.txt both.json
+expect 0 register points_0.xyz points_0.xyz --source-viewpoint "$source_sensor" --target-viewpoint "$source_sensor" --json
+cmp -s out.txt both.json || fail "--viewpoint is not the viewpoint of both sides"
 
 # Two pieces of a plane: ambiguous.
 awk 'BEGIN { for (i = 0; i < 40; ++i) for (j = 0; j < 30; ++j) print i, j, 0 }' > plane_0.xyz
