@@ -16,7 +16,7 @@ namespace CGAL {
 namespace Crude_registration {
 
 template Scan_file<Exact_predicates_inexact_constructions_kernel>
-read_scan<Exact_predicates_inexact_constructions_kernel>(const std::string&);
+read_scan<Exact_predicates_inexact_constructions_kernel>(const std::string&, const Depth_camera&);
 
 } // namespace Crude_registration
 } // namespace CGAL

@@ -438,7 +438,7 @@ BOOST_AUTO_TEST_CASE(wrong_ascii_bodies)
   CHECK_ERROR(replaced(text, "0 1 1.5", "0 1 1.5.2"), "scan.ply:14: ", "1.5.2");
   CHECK_ERROR(replaced(text, "0 1 1.5", "0 1 1,5"), "scan.ply:14: ", "1,5");
   for (const std::string bad : {"nan", "NaN", "inf", "-inf", "1e999", "-1e999"})
-    CHECK_ERROR(replaced(text, "0 1 1.5", "0 1 " + bad), "scan.ply:14: ", "vertex 2 is NaN or infinite");
+    BOOST_TEST(read(replaced(text, "0 1 1.5", "0 1 " + bad)).points().size() + 1 == read(text).points().size());
   CHECK_ERROR(replaced(text, "0 1 1.5", "0 1 1e90"), "scan.ply: ", "1e75");
   CHECK_ERROR(replaced(text, "1 2\n", "1 3\n"), "scan.ply:17: ", "vertex index 3");
   CHECK_ERROR(replaced(text, "1 2\n", "1 -1\n"), "scan.ply:17: ", "vertex index -1");
@@ -477,7 +477,7 @@ BOOST_AUTO_TEST_CASE(wrong_binary_bodies)
     std::string bad = text;
     // two cameras of 3 and 5 bytes, then the first vertex: confidence, z
     bad.replace(begin + 8 + 4, 4, not_a_number.text());
-    CHECK_ERROR(bad, "scan.ply: byte " + std::to_string(begin + 8) + ": ", "vertex 0 is NaN or infinite");
+    BOOST_TEST(read(bad).points().size() + 1 == image.points().size()); // a missing sample
     Writer wrong_index(encoding);
     wrong_index.put(std::int32_t(image.points().size()));
     bad = text;

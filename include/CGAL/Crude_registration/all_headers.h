@@ -14,6 +14,7 @@
 
 // The public headers of the package, for CGAL/Crude_registration.h.
 
+#include <CGAL/Crude_registration/IO/Depth_camera.h>
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>

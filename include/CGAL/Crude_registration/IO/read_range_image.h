@@ -35,14 +35,15 @@ Repository.
 The encodings are ascii, binary little endian and binary big endian. The grid has `obj_info num_cols` times
 `obj_info num_rows` cells, row by row, each of which is a list of no vertex or of one. All else in the file is passed
 over, except `obj_info viewpoint x y z` and `obj_info viewing_direction x y z`, which `write_range_image()` writes: they
-give the image its sensor. Without them, the sensor is what `estimate_sensor()` finds in the grid.
+give the image its sensor. Without them, the sensor is what `estimate_sensor()` finds in the grid. A vertex that is NaN
+or infinite is no sample.
 
 \param filename the name of the file
 \param image the output, in the unit and frame of the file; left as it was where an error is thrown
 
 \throws IO_error if the file cannot be opened or does not parse: it is cut off; a word is not a number; an index is
-outside the vertices or in two cells; `num_cols` or `num_rows` is missing or does not match the grid; a coordinate is
-NaN or infinite; there is no grid or no sample.
+outside the vertices or in two cells; `num_cols` or `num_rows` is missing or does not match the grid; there is no grid
+or no sample.
 */
 template <class Kernel>
 void read_range_image(const std::string& filename, Range_image<Kernel>& image)

@@ -14,14 +14,17 @@
 
 // Reads a scan from a file of any format, whatever it holds.
 
+#include <CGAL/Crude_registration/IO/Depth_camera.h>
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/internal/read_flat_scan.h>
 #include <CGAL/Crude_registration/IO/internal/to_kernel.h>
 #include <CGAL/Crude_registration/Range_image.h>
+#include <CGAL/Crude_registration/Sensor.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,12 +38,17 @@ namespace Crude_registration {
 \brief what `read_scan()` found in a file: a range image, a mesh or points, in the unit and frame of the file. The two
 others are empty.
 
+A point that is NaN or infinite, or that is (0, 0, 0) in a range image whose format writes so where the sensor saw
+nothing, is a missing sample: it is counted and left out, with the faces that name it. So is (0, 0, 0) among points
+where it stands more than once and outside the box of the others.
+
 \tparam Kernel a model of `Kernel`
 */
 template <class Kernel>
 struct Scan_file
 {
   typedef typename Kernel::Point_3 Point_3;
+  typedef typename Kernel::Vector_3 Vector_3;
 
   enum Kind
   {
@@ -53,6 +61,19 @@ struct Scan_file
   Range_image<Kernel> image;
   CGAL::Surface_mesh<Point_3> mesh;
   std::vector<Point_3> points;
+
+  /// the normals that the file has for its points or for the samples of its range image, in their order: of length 1,
+  /// or null where there is none for a point. Empty where the file has no normals, and for meshes.
+  std::vector<Vector_3> normals;
+
+  /// what the file says of the sensor that saw its points or its mesh; a range image has its own.
+  Sensor<Kernel> sensor;
+
+  /// how many points of the file are missing samples.
+  std::size_t missing = 0;
+
+  /// sentences on how the file was understood, where it could have been otherwise.
+  std::vector<std::string> notes;
 };
 
 /*!
@@ -60,18 +81,37 @@ struct Scan_file
 
 \brief reads a range scan from a file, whatever it holds.
 
-The format is told by the first bytes of the file where these are unmistakable (PLY, OFF), else by the end of its name:
+The format is told by the first bytes of the file where these are unmistakable (PLY, OFF, PCD, NPY, PNG, LAS), else by
+the end of its name:
 
 - `.ply` with an `element range_grid`: a range image, see `read_range_image()`; with faces: a mesh; else points;
 - `.off`, `.obj`, `.stl`, `.ts` and, where the program was built with VTK, `.vtp`: a mesh, or points where there is no
 face;
-- `.ptx` (one scan): a range image, moved to the world as the file says, with a perspective sensor at the scanner's
-place;
-- `.las`, `.laz`, where the program was built with LASlib: points;
-- any other text (`.xyz`, `.txt`, `.pts`, `.csv`, ...): points, one a line. Words are separated by white space, or by
-  commas or semicolons if the first line has them; the first three are x, y and z, what follows is passed over. Lines
-  that start with `#` or `//` are comments. The first line may name the columns, three of which are `x`, `y` and `z`; a
+- `.ptx`: a range image, moved to the world as the file says, with a perspective sensor at the scanner's place. Of
+several scans in a file, `FILE.ptx#2` is the second one's name;
+- `.pcd` (ascii, binary and binary_compressed): a range image where the points are organised, else points. The sensor is
+  the viewpoint of the file; where this is the one that is written if there is none, 0 0 0, that of a range image is the
+  one that its grid tells, or the origin where the grid does not tell it, or tells one nearer to the origin than to any
+  sample;
+- NumPy's `.npy` of `f4` or `f8`: points for an array of n x 3 or more numbers, a range image for one of rows x columns
+x 3;
+- `.png` of one channel of 16 bits, where the program was built with libpng: a depth image, which is a range image with
+  the sensor at the origin, by the parameter `camera`;
+- `.las` (1.0 to 1.4, not compressed): points, in double as scale and offset give them;
+- any other text (`.xyz`, `.txt`, `.asc`, `.pts`, `.csv`, ...): points, one a line. Words are separated by white space,
+  or by semicolons or commas if the first line of numbers has them; they may stand in quotation marks. With semicolons,
+  or with white space where each word has a comma, a comma is that of a decimal number. The first three words are x, y
+  and z; if exactly three more follow in each line and are unit vectors, they are normals; what else follows is passed
+  over. A first column of growing whole numbers before three others or more numbers the points, and is passed over.
+  Lines that start with `#`, `//` or `%` are comments. The lines before the points that do not start with a number are
+  passed over, if the last of them does not have as many words as the points have columns: such a line names the
+columns, three of which are `x`, `y` and `z` (or `Points:0` to `Points:2`), and those of normals `nx`, `ny` and `nz` (or
+  `normal_x`, ..., `Normals:0`, ...), in any case of letters and with a unit in brackets behind; so may a comment. A
 line before the points may hold their number alone.
+
+Each of these may be packed by gzip (`.xyz.gz`), where the program was built with Boost.Iostreams.
+
+Normals are read from PLY (`nx`, `ny`, `nz`), PCD (`normal_x`, ...), arrays of n x 6 and text.
 
 Where a mesh's faces do not form an oriented manifold, faces are turned and vertices are split until they do; faces that
 name a vertex twice and vertices without a face are left out.
@@ -80,15 +120,20 @@ Numbers are read the same whatever the locale of the program is.
 
 \tparam Kernel a model of `Kernel`
 \param filename the name of the file
+\param camera the camera of a depth image
 
 \throws IO_error if the file cannot be opened, does not parse, or has no points; `IO_error::line()` says where, if it is
-a text of a format that CGAL does not read for us (`.ts`, `.vtp`, `.las`).
+a text of a format that CGAL does not read for us (`.ts`, `.vtp`).
 */
 template <class Kernel>
-Scan_file<Kernel> read_scan(const std::string& filename)
+Scan_file<Kernel> read_scan(const std::string& filename, const Depth_camera& camera = Depth_camera())
 {
-  internal::Flat_scan_file flat = internal::read_flat_scan(filename);
+  internal::Flat_scan_file flat = internal::read_flat_scan(filename, camera);
   Scan_file<Kernel> scan;
+  scan.normals = internal::to_kernel_vectors<Kernel>(flat.normals);
+  scan.missing = flat.missing;
+  scan.notes = std::move(flat.notes);
+  if (flat.kind != internal::Flat_scan_file::RANGE_IMAGE) scan.sensor = internal::to_sensor<Kernel>(flat.sensor);
   switch (flat.kind) {
   case internal::Flat_scan_file::RANGE_IMAGE:
     scan.kind = Scan_file<Kernel>::RANGE_IMAGE;
@@ -107,7 +152,7 @@ Scan_file<Kernel> read_scan(const std::string& filename)
 #ifdef CGAL_CRUDE_REGISTRATION_COMPILED
 // The kernel that most programs use is compiled with the core.
 extern template Scan_file<Exact_predicates_inexact_constructions_kernel>
-read_scan<Exact_predicates_inexact_constructions_kernel>(const std::string&);
+read_scan<Exact_predicates_inexact_constructions_kernel>(const std::string&, const Depth_camera&);
 #endif
 
 } // namespace Crude_registration

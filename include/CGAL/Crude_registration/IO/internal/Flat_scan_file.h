@@ -18,6 +18,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -39,7 +40,16 @@ struct Flat_scan_file
   std::size_t columns = 0, rows = 0;              // of a range image
   std::vector<std::int32_t> grid;                 // row by row; -1 where there is no sample
   Flat_sensor sensor;                             // as the file says, or as its grid tells
+  std::vector<Vector> normals;                    // of points and samples, as the file has them: one each, or none
+  std::size_t missing = 0;                        // points of the file that are no samples
+  std::vector<std::string> notes;                 // sentences on how the file was understood
 };
+
+// A normal of a file: of length 1, or null where the file has none for its point.
+inline Vector unit_normal(const Vector& v)
+{
+  return v.allFinite() ? unit_or_zero(v) : Vector(Vector::Zero());
+}
 
 } // namespace internal
 } // namespace Crude_registration

@@ -46,6 +46,9 @@ enum class Ply_role
   X,
   Y,
   Z,
+  NX,
+  NY,
+  NZ,
   INDICES
 };
 

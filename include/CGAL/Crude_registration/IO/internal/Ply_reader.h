@@ -17,13 +17,13 @@
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/internal/Ply_elements.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
+#include <CGAL/Crude_registration/IO/internal/binary_numbers.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -37,8 +37,9 @@ namespace internal {
 // What this package takes from a PLY file; all else in it is passed over.
 struct Ply_contents
 {
-  std::vector<std::array<double, 3>> points;
-  bool has_grid = false; // is there an `element range_grid`?
+  std::vector<std::array<double, 3>> points;  // may be NaN or infinite
+  std::vector<std::array<double, 3>> normals; // one a point, or none
+  bool has_grid = false;                      // is there an `element range_grid`?
   std::size_t columns = 0, rows = 0;
   std::vector<std::int32_t> grid; // row by row; -1 where there is no sample
   bool has_viewpoint = false,
@@ -79,13 +80,6 @@ private:
     BINARY_LITTLE_ENDIAN,
     BINARY_BIG_ENDIAN
   };
-  static bool is_little_endian()
-  {
-    const std::uint16_t one = 1;
-    unsigned char first;
-    std::memcpy(&first, &one, 1);
-    return first == 1;
-  }
 
   // --- header -------------------------------------------------------------------------------------------------------
 
@@ -209,6 +203,10 @@ private:
             throw IO_error(m_file, e.line, std::string("the vertices have no property '") + name + "'");
           p->role = role;
         }
+        const std::array<Ply_property*, 3> normal = {e.find("nx"), e.find("ny"), e.find("nz")};
+        m_has_normals = std::all_of(normal.begin(), normal.end(), [](auto* p) { return p != nullptr && !p->is_list; });
+        const std::array<Ply_role, 3> roles = {Ply_role::NX, Ply_role::NY, Ply_role::NZ};
+        for (std::size_t i = 0; m_has_normals && i < 3; ++i) normal[i]->role = roles[i];
       } else if (e.name == "range_grid" || e.name == "face") {
         Ply_property* p = e.find("vertex_indices");
         if (p == nullptr) p = e.find("vertex_index");
@@ -237,7 +235,7 @@ private:
   template <class Source>
   void read_body(Source& source)
   {
-    std::array<double, 3> xyz = {0, 0, 0};
+    std::array<double, 6> xyz = {0, 0, 0, 0, 0, 0}; // and the normal
     std::vector<long long> indices;
     for (const Ply_element& e : m_elements) {
       if (e.properties.empty()) continue;
@@ -245,22 +243,21 @@ private:
       // a count that the file cannot hold must not make us ask for the memory
       const std::size_t expected = static_cast<std::size_t>(std::min<std::uint64_t>(e.count, m_data.size()));
       if (is_vertex) m_contents.points.reserve(expected);
+      if (is_vertex && m_has_normals) m_contents.normals.reserve(expected);
       if (is_grid) m_contents.grid.reserve(expected);
       if (is_face) m_contents.faces.reserve(expected);
       for (std::uint64_t i = 0; i < e.count; ++i) {
         source.begin_element(e, i);
         for (const Ply_property& p : e.properties) {
-          if (p.role == Ply_role::X) xyz[0] = source.number(p);
-          else if (p.role == Ply_role::Y) xyz[1] = source.number(p);
-          else if (p.role == Ply_role::Z) xyz[2] = source.number(p);
+          if (p.role >= Ply_role::X && p.role <= Ply_role::NZ)
+            xyz[static_cast<std::size_t>(p.role) - static_cast<std::size_t>(Ply_role::X)] = source.number(p);
           else if (p.is_list) read_list(source, p, indices);
           else source.skip(p);
         }
         source.end_element();
         if (is_vertex) {
-          if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]))
-            source.fail("a coordinate of vertex " + std::to_string(i) + " is NaN or infinite");
-          m_contents.points.push_back(xyz);
+          m_contents.points.push_back({xyz[0], xyz[1], xyz[2]});
+          if (m_has_normals) m_contents.normals.push_back({xyz[3], xyz[4], xyz[5]});
         } else if (is_grid) {
           if (indices.size() > 1) source.fail("a cell of the range_grid holds more than one vertex");
           m_contents.grid.push_back(indices.empty() ? -1 : static_cast<std::int32_t>(indices[0]));
@@ -313,6 +310,7 @@ private:
   Format m_format = NO_FORMAT;
   std::vector<Ply_element> m_elements;
   std::uint64_t m_vertex_count = 0;
+  bool m_has_normals = false;
   std::size_t m_body = 0;      // where the body starts, in bytes
   std::size_t m_body_line = 0; // and in lines
   Ply_contents m_contents;

@@ -16,6 +16,8 @@
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -65,6 +67,12 @@ public:
   // Words are separated by white space; with a separator by it alone, white space around it being ignored.
   void set_separator(char separator) { m_separator = separator; }
 
+  // Numbers may have a comma for a point, as where the language says so; the separator is none then, or another.
+  void set_decimal_comma(bool on) { m_decimal_comma = on; }
+
+  // A word may stand in quotation marks, a separator within them being a part of it.
+  void set_quotes(bool on) { m_quotes = on; }
+
   // to the next line that has a word; false at the end of the text. Lines end in \n, \r\n or \r.
   bool next_line()
   {
@@ -90,6 +98,14 @@ public:
   std::string_view word()
   {
     const char* first = m_word;
+    if (m_quotes && first != m_line_end && *first == '"') {
+      const char* const last = std::find(first + 1, m_line_end, '"');
+      if (last != m_line_end && ends_word(last + 1)) {
+        m_word = last + 1;
+        to_next_word();
+        return std::string_view(first + 1, static_cast<std::size_t>(last - first - 1));
+      }
+    }
     while (!at_word_end(m_word)) ++m_word;
     const char* last = m_word;
     while (last != first && is_space(last[-1])) --last;
@@ -100,14 +116,33 @@ public:
   // what is left of the line
   std::string_view rest() const { return std::string_view(m_word, static_cast<std::size_t>(m_line_end - m_word)); }
 
+  // The next word, if it is a number, which may be infinite or NaN; else the cursor stays.
+  bool try_number(double& value)
+  {
+    const char* next = nullptr;
+    value = parse_double(m_word, m_line_end, next);
+    if (next != nullptr && ends_word(next)) {
+      m_word = next;
+      to_next_word();
+      return true;
+    }
+    if (!m_quotes && !m_decimal_comma) return false;
+    const char* const before = m_word;
+    constexpr std::size_t longest = 400; // of a double in decimal, with its exponent spelt out
+    std::string text(word().substr(0, longest + 1));
+    if (m_decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
+    const char* const end = text.data() + text.size();
+    value = parse_double(text.data(), end, next);
+    if (next == end && !text.empty() && text.size() <= longest) return true;
+    m_word = before;
+    return false;
+  }
+
   // the next word as a number, which may be infinite or NaN; `what` names it in the error
   double number(const char* what)
   {
-    const char* next = nullptr;
-    const double value = parse_double(m_word, m_line_end, next);
-    if (next == nullptr || !ends_word(next)) fail_at_word(what, "a number");
-    m_word = next;
-    to_next_word();
+    double value = 0;
+    if (!try_number(value)) fail_at_word(what, "a number");
     return value;
   }
 
@@ -173,7 +208,18 @@ private:
   std::size_t m_next_line;
   std::size_t m_line;
   char m_separator = 0;
+  bool m_decimal_comma = false;
+  bool m_quotes = false;
 };
+
+// The next three words of the line as coordinates, which may be infinite or NaN.
+inline std::array<double, 3> read_coordinates(Text_cursor& cursor)
+{
+  std::array<double, 3> p;
+  static constexpr const char* names[3] = {"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i) p[i] = cursor.number(names[i]);
+  return p;
+}
 
 } // namespace internal
 } // namespace Crude_registration

@@ -16,7 +16,6 @@
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
-#include <CGAL/Crude_registration/IO/internal/point_readers.h>
 
 #include <array>
 #include <cmath>
@@ -35,10 +34,13 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
+// Points may be NaN or infinite.
 struct Polygon_soup
 {
   std::vector<std::array<double, 3>> points;
   std::vector<std::vector<std::size_t>> polygons;
+  std::vector<std::array<double, 3>> normals; // of the points, one each, or none
+  std::size_t missing = 0;                    // points that are left out
 };
 
 // OFF, with the optional prefixes of its keyword for what else stands in a vertex's line (which is passed over).
@@ -153,7 +155,7 @@ private:
                                  std::to_string((m_data.size() - header) / record) + " of " + std::to_string(n) +
                                  " triangles");
     for (std::size_t i = 0; i < n; ++i) {
-      std::vector<std::size_t> triangle;
+      std::vector<std::array<double, 3>> triangle;
       for (std::size_t k = 0; k < 3; ++k) {
         std::array<double, 3> p;
         for (std::size_t j = 0; j < 3; ++j) {
@@ -163,14 +165,11 @@ private:
             bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(m_data[at + b])) << 8 * b;
           float coordinate;
           std::memcpy(&coordinate, &bits, sizeof coordinate);
-          if (!std::isfinite(coordinate))
-            throw IO_error(m_file, "byte " + std::to_string(at) + ": a coordinate of triangle " + std::to_string(i) +
-                                       " is NaN or infinite");
           p[j] = static_cast<double>(coordinate);
         }
-        triangle.push_back(vertex(p));
+        triangle.push_back(p);
       }
-      m_soup.polygons.push_back(triangle);
+      add(triangle);
     }
   }
 
@@ -178,19 +177,31 @@ private:
   {
     Text_cursor cursor(m_data, m_file);
     if (!cursor.next_line() || cursor.word() != "solid") cursor.fail("not an STL file: it does not start with 'solid'");
-    std::vector<std::size_t> triangle;
+    std::vector<std::array<double, 3>> triangle;
     while (cursor.next_line()) {
       const std::string_view keyword = cursor.word();
-      if (keyword == "vertex") triangle.push_back(vertex(read_coordinates(cursor)));
+      if (keyword == "vertex") triangle.push_back(read_coordinates(cursor));
       else if (keyword == "endloop") {
         if (triangle.size() != 3) cursor.fail("the loop has " + std::to_string(triangle.size()) + " vertices, not 3");
-        m_soup.polygons.push_back(triangle);
+        add(triangle);
         triangle.clear();
       } else if (keyword != "facet" && keyword != "outer" && keyword != "endfacet" && keyword != "endsolid" &&
                  keyword != "solid")
         cursor.fail("unknown word: '" + std::string(keyword.substr(0, 40)) + "'");
     }
     if (!triangle.empty()) cursor.fail("the file ends within a facet");
+  }
+
+  // Corners that are NaN or infinite are counted, and have no place in an order.
+  void add(const std::vector<std::array<double, 3>>& triangle)
+  {
+    std::size_t missing = 0;
+    for (const auto& p : triangle)
+      if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) ++missing;
+    m_soup.missing += missing;
+    if (missing > 0) return;
+    m_soup.polygons.emplace_back();
+    for (const auto& p : triangle) m_soup.polygons.back().push_back(vertex(p));
   }
 
   std::size_t vertex(const std::array<double, 3>& p)

@@ -14,10 +14,17 @@
 
 // The format of a file told, and its contents put in order.
 
+#include <CGAL/Crude_registration/IO/internal/Pcd_reader.h>
 #include <CGAL/Crude_registration/IO/internal/Ply_reader.h>
-#include <CGAL/Crude_registration/IO/internal/point_readers.h>
+#include <CGAL/Crude_registration/IO/internal/Text_point_reader.h>
+#include <CGAL/Crude_registration/IO/internal/missing_samples.h>
 #include <CGAL/Crude_registration/IO/internal/polygon_soup_readers.h>
+#include <CGAL/Crude_registration/IO/internal/read_depth_image.h>
 #include <CGAL/Crude_registration/IO/internal/read_flat_scan.h>
+#include <CGAL/Crude_registration/IO/internal/read_las.h>
+#include <CGAL/Crude_registration/IO/internal/read_npy.h>
+#include <CGAL/Crude_registration/IO/internal/read_ptx.h>
+#include <CGAL/Crude_registration/IO/internal/unpack_gzip.h>
 #include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
 #include <CGAL/Crude_registration/internal/sampling/estimate_flat_sensor.h>
 
@@ -29,22 +36,20 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
+#include <limits>
 #include <locale>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
-
-#ifdef CGAL_LINKED_WITH_LASLIB
-#include <CGAL/IO/read_las_points.h>
-#endif
 
 namespace CGAL {
 namespace Crude_registration {
@@ -69,6 +74,14 @@ CGAL_CRUDE_REGISTRATION_INLINE std::string read_file(const std::string& filename
 
 using Cartesian = CGAL::Simple_cartesian<double>;
 
+inline std::vector<Vector> to_normals(const std::vector<std::array<double, 3>>& coordinates)
+{
+  std::vector<Vector> normals;
+  normals.reserve(coordinates.size());
+  for (const auto& n : coordinates) normals.push_back(unit_normal(Vector(n[0], n[1], n[2])));
+  return normals;
+}
+
 inline std::vector<Vector> to_vectors(const std::vector<std::array<double, 3>>& coordinates)
 {
   std::vector<Vector> vectors;
@@ -77,25 +90,77 @@ inline std::vector<Vector> to_vectors(const std::vector<std::array<double, 3>>& 
   return vectors;
 }
 
-// Polygons that name a vertex twice or have fewer than three are left out, as are points without a polygon; where the
-// others do not make a manifold with consistent faces, CGAL turns them and splits vertices until they do.
+// Points alone, without those that are no samples.
+inline Flat_scan_file to_scan(Flat_scan_file&& scan, const std::string& file)
+{
+  take_out_missing(scan, origin_is_missing(scan.points), file);
+  return std::move(scan);
+}
+
+// The sensor that the grid of a range image tells, if any.
+inline Flat_sensor sensor_of_grid(const Flat_scan_file& scan)
+{
+  return estimated_sensor(Flat_range_image(scan.columns, scan.rows, scan.points, scan.grid.data()));
+}
+
+// A grid that some programs write with (0, 0, 0) where there is no sample.
+inline Flat_scan_file to_image(Flat_scan_file&& scan, const std::string& file)
+{
+  take_out_missing(scan, true, file);
+  if (scan.sensor.kind == Flat_sensor::UNKNOWN) scan.sensor = sensor_of_grid(scan);
+  return std::move(scan);
+}
+
+// The viewpoint 0 0 0 of an organised PCD file is that of a camera's frame, but also what remains where the points were
+// moved, or where nobody set one. It is believed where the grid does not tell the sensor, or tells one that is nearer
+// to it than to any sample.
+inline Flat_scan_file read_pcd(const std::string& data, const std::string& file)
+{
+  bool viewpoint_is_default = false;
+  Flat_scan_file scan = Pcd_reader(data, file).read(viewpoint_is_default);
+  if (scan.kind != Flat_scan_file::RANGE_IMAGE) return to_scan(std::move(scan), file);
+  scan = to_image(std::move(scan), file);
+  const Flat_sensor& told = scan.sensor;
+  if (!viewpoint_is_default || told.kind == Flat_sensor::ORTHOGRAPHIC) return scan;
+  double nearest = (std::numeric_limits<double>::max)();
+  if (told.kind == Flat_sensor::PERSPECTIVE)
+    for (const Vector& p : scan.points) nearest = (std::min)(nearest, (p - told.vector).norm());
+  if (told.kind == Flat_sensor::UNKNOWN || told.vector.norm() < nearest)
+    scan.sensor = {Flat_sensor::PERSPECTIVE, Vector::Zero()};
+  return scan;
+}
+
+// Polygons that name a vertex that is NaN or infinite, that name one twice or have fewer than three are left out, as
+// are points without a polygon; where the others do not make a manifold with consistent faces, CGAL turns them and
+// splits vertices until they do.
 inline Flat_scan_file to_scan(Polygon_soup&& soup, const std::string& file)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
   Flat_scan_file scan;
-  if (soup.points.empty()) throw IO_error(file, "the file has no points");
+  scan.missing = soup.missing;
+  if (soup.points.empty() && soup.missing == 0) throw IO_error(file, "the file has no points");
   if (soup.polygons.empty()) {
     scan.points = to_vectors(soup.points);
-    return scan;
+    scan.normals = to_normals(soup.normals);
+    return to_scan(std::move(scan), file);
   }
+  std::vector<bool> is_missing(soup.points.size(), false);
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    is_missing[v] =
+        !std::all_of(soup.points[v].begin(), soup.points[v].end(), [](double c) { return std::isfinite(c); });
+  scan.missing += static_cast<std::size_t>(std::count(is_missing.begin(), is_missing.end(), true));
   std::vector<std::size_t> sorted;
   const auto is_degenerate = [&](const std::vector<std::size_t>& polygon) {
     sorted = polygon;
     std::sort(sorted.begin(), sorted.end());
-    return sorted.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+    return sorted.size() < 3 ||
+           std::any_of(sorted.begin(), sorted.end(), [&](std::size_t v) { return is_missing[v]; }) ||
+           std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
   };
   soup.polygons.erase(std::remove_if(soup.polygons.begin(), soup.polygons.end(), is_degenerate), soup.polygons.end());
-  if (soup.polygons.empty()) throw IO_error(file, "all faces are degenerate");
+  if (soup.polygons.empty())
+    throw IO_error(file, scan.missing == 0 ? "all faces are degenerate"
+                                           : "all faces are degenerate, or have a vertex that is NaN or infinite");
 
   constexpr std::size_t unused = static_cast<std::size_t>(-1);
   std::vector<std::size_t> new_index(soup.points.size(), unused);
@@ -118,6 +183,14 @@ inline Flat_scan_file to_scan(Polygon_soup&& soup, const std::string& file)
   return scan;
 }
 
+inline Flat_sensor sensor_of(const Ply_contents& ply)
+{
+  const auto to_vector = [](const std::array<double, 3>& v) { return Vector(v[0], v[1], v[2]); };
+  if (ply.has_viewpoint) return {Flat_sensor::PERSPECTIVE, to_vector(ply.viewpoint)};
+  if (ply.has_viewing_direction) return {Flat_sensor::ORTHOGRAPHIC, unit_or_zero(to_vector(ply.viewing_direction))};
+  return {};
+}
+
 // The sensor as the file says, or estimated from the grid.
 inline Flat_scan_file to_flat_range_image(Ply_contents&& ply, const std::string& file)
 {
@@ -128,18 +201,20 @@ inline Flat_scan_file to_flat_range_image(Ply_contents&& ply, const std::string&
   scan.columns = ply.columns;
   scan.rows = ply.rows;
   scan.grid = std::move(ply.grid);
-  const auto to_vector = [](const std::array<double, 3>& v) { return Vector(v[0], v[1], v[2]); };
-  if (ply.has_viewpoint) scan.sensor = {Flat_sensor::PERSPECTIVE, to_vector(ply.viewpoint)};
-  else if (ply.has_viewing_direction)
-    scan.sensor = {Flat_sensor::ORTHOGRAPHIC, unit_or_zero(to_vector(ply.viewing_direction))};
-  else scan.sensor = estimated_sensor(Flat_range_image(scan.columns, scan.rows, scan.points, scan.grid.data()));
+  scan.normals = to_normals(ply.normals);
+  take_out_missing(scan, false, file);
+  scan.sensor = sensor_of(ply);
+  if (scan.sensor.kind == Flat_sensor::UNKNOWN) scan.sensor = sensor_of_grid(scan);
   return scan;
 }
 
 inline Flat_scan_file to_scan(Ply_contents&& ply, const std::string& file)
 {
   if (ply.has_grid) return to_flat_range_image(std::move(ply), file);
-  return to_scan(Polygon_soup{std::move(ply.points), std::move(ply.faces)}, file);
+  Flat_scan_file scan =
+      to_scan(Polygon_soup{std::move(ply.points), std::move(ply.faces), std::move(ply.normals)}, file);
+  scan.sensor = sensor_of(ply);
+  return scan;
 }
 
 // what one of CGAL's readers of polygon soups has read
@@ -147,12 +222,7 @@ inline Flat_scan_file to_scan(const std::vector<Cartesian::Point_3>& points,
                               std::vector<std::vector<std::size_t>>&& polygons, const std::string& file)
 {
   Polygon_soup soup;
-  for (const auto& p : points) {
-    soup.points.push_back({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
-    for (double coordinate : soup.points.back())
-      if (!std::isfinite(coordinate))
-        throw IO_error(file, "a coordinate of point " + std::to_string(soup.points.size() - 1) + " is NaN or infinite");
-  }
+  for (const auto& p : points) soup.points.push_back({p.x(), p.y(), p.z()});
   for (const auto& polygon : polygons)
     for (std::size_t v : polygon)
       if (v >= points.size()) throw IO_error(file, "a face has a vertex that does not exist");
@@ -184,41 +254,100 @@ inline Flat_scan_file read_vtp([[maybe_unused]] const std::string& file)
 #endif
 }
 
-inline Flat_scan_file read_las([[maybe_unused]] const std::string& file)
+// The number behind the last # of a name, which is taken off; 0 where there is none, or where a file has that name.
+inline std::size_t take_off_number(std::string& filename)
 {
-#ifdef CGAL_LINKED_WITH_LASLIB
-  std::vector<Cartesian::Point_3> points;
-  if (!CGAL::IO::read_LAS(file, std::back_inserter(points))) throw IO_error(file, "not a LAS file that CGAL can read");
-  return to_scan(points, {}, file);
-#else
-  throw IO_error(file, "LAS files are read only where the program was built with LASlib");
-#endif
+  const std::size_t mark = filename.rfind('#');
+  if (mark == std::string::npos || std::filesystem::exists(filename)) return 0;
+  std::size_t number = 0;
+  const char *const first = filename.data() + mark + 1, *const last = filename.data() + filename.size();
+  const auto r = std::from_chars(first, last, number);
+  if (r.ec != std::errc() || r.ptr != last || number == 0) return 0;
+  filename.resize(mark);
+  return number;
 }
 
-CGAL_CRUDE_REGISTRATION_INLINE Flat_scan_file read_flat_scan(const std::string& filename)
+inline std::string lower_case_extension(const std::string& filename)
 {
   std::string extension = std::filesystem::path(filename).extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  const std::string data = read_file(filename);
-  const std::string_view start = std::string_view(data).substr(0, 4096);
-  const auto starts_with = [&](const char* magic) { return start.substr(0, std::string_view(magic).size()) == magic; };
+  return extension;
+}
 
-  if (data.empty()) throw IO_error(filename, "the file is empty");
+// The contents of a file, and the end of its name, which says the format.
+struct Named_contents
+{
+  std::string data, extension;
+};
+
+inline Named_contents contents_of(const std::string& filename)
+{
+  Named_contents contents = {read_file(filename), lower_case_extension(filename)};
+  if (contents.data.compare(0, 2, "\x1f\x8b") == 0) {
+    contents.data = unpack_gzip(contents.data, filename);
+    if (contents.extension == ".gz") contents.extension = lower_case_extension(filename.substr(0, filename.size() - 3));
+  }
+  if (contents.data.empty()) throw IO_error(filename, "the file is empty");
+  return contents;
+}
+
+inline Flat_scan_file read_text(std::string_view text, const std::string& file)
+{
+  const auto starts_with = [&](std::string_view start) { return text.substr(0, start.size()) == start; };
+  if (starts_with("\xff\xfe") || starts_with("\xfe\xff"))
+    throw IO_error(file, "the text is in UTF-16: save it as UTF-8");
+  if (starts_with("\xef\xbb\xbf")) text.remove_prefix(3); // the mark of UTF-8
+  if (text.substr(0, 4096).find('\0') != std::string_view::npos)
+    throw IO_error(file, "the format of the file is not known");
+  return to_scan(Text_point_reader(text, file).read(), file);
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE Flat_scan_file read_flat_scan(const std::string& name, const Depth_camera& camera)
+{
+  std::string filename = name;
+  const std::size_t number = take_off_number(filename);
+  const auto [data, extension] = contents_of(filename);
+  const auto starts_with = [&, &bytes = data](const char* magic) {
+    return bytes.compare(0, std::string_view(magic).size(), magic) == 0;
+  };
+
+  if (extension == ".ptx") return Ptx_reader(data, filename).read(number);
+  if (number > 0) throw IO_error(filename, "only a PTX file has scans with numbers");
   if (extension == ".ply" || starts_with("ply\n") || starts_with("ply\r"))
     return to_scan(read_ply(data, filename), filename);
   if (extension == ".off" || starts_with("OFF") || starts_with("COFF") || starts_with("NOFF"))
     return to_scan(read_off(data, filename), filename);
+  if (extension == ".pcd" || starts_with("# .PCD")) return read_pcd(data, filename);
+  if (starts_with("\x93NUMPY")) {
+    Flat_scan_file scan = Npy_reader(data, filename).read();
+    return scan.kind == Flat_scan_file::RANGE_IMAGE ? to_image(std::move(scan), filename)
+                                                    : to_scan(std::move(scan), filename);
+  }
+  if (starts_with("\x89PNG")) return read_depth_image(data, camera, filename);
+  if (extension == ".las" || extension == ".laz" || starts_with("LASF"))
+    return to_scan(read_las(data, filename), filename);
+  if (extension == ".e57" || starts_with("ASTM-E57"))
+    throw IO_error(filename,
+                   "E57 is not read: convert the scan to PTX or PLY, with CloudCompare or the scanner's program");
   if (extension == ".obj") return to_scan(read_obj(data, filename), filename);
   if (extension == ".stl") return to_scan(read_stl(data, filename), filename);
   if (extension == ".ts") return read_gocad(data, filename);
   if (extension == ".vtp") return read_vtp(filename);
-  if (extension == ".las" || extension == ".laz") return read_las(filename);
-  if (extension == ".ptx") return read_ptx(data, filename);
-  if (start.find('\0') != std::string_view::npos) throw IO_error(filename, "the format of the file is not known");
-  Flat_scan_file scan;
-  scan.points = to_vectors(Text_point_reader(data, filename).read());
-  return scan;
+  return read_text(data, filename);
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE std::vector<std::string> names_of_scans(const std::string& filename)
+{
+  const std::string extension = lower_case_extension(filename);
+  if (extension != ".ptx" && extension != ".gz") return {filename};
+  const Named_contents contents = contents_of(filename);
+  if (contents.extension != ".ptx") return {filename};
+  const std::size_t count = Ptx_reader(contents.data, filename).count();
+  if (count == 1) return {filename};
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i <= count; ++i) names.push_back(filename + "#" + std::to_string(i));
+  return names;
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE Flat_scan_file parse_flat_range_image(const std::string& data, const std::string& name)

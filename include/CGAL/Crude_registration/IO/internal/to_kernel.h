@@ -37,6 +37,15 @@ std::vector<typename Kernel::Point_3> to_points(const std::vector<Vector>& vecto
   return points;
 }
 
+template <class Kernel>
+std::vector<typename Kernel::Vector_3> to_kernel_vectors(const std::vector<Vector>& vectors)
+{
+  std::vector<typename Kernel::Vector_3> result;
+  result.reserve(vectors.size());
+  for (const Vector& v : vectors) result.emplace_back(v.x(), v.y(), v.z());
+  return result;
+}
+
 // Faults of the contents are told as those of the file.
 template <class Kernel>
 Range_image<Kernel> to_range_image(Flat_scan_file&& scan, const std::string& file)
