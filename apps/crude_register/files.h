@@ -10,8 +10,10 @@
 
 // The files that commands read and write: scans, meshes, motions and poses.
 
+#include "json.h"
 #include "options.h"
 
+#include <CGAL/Crude_registration/IO/Depth_camera.h>
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/IO/triangulate_scan.h>
@@ -30,6 +32,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 using Transformation = CGAL::Aff_transformation_3<Kernel>;
 using Mesh = CGAL::Surface_mesh<Point>;
@@ -41,10 +44,74 @@ inline Mesh mesh_of(const Scan_file& file, const std::optional<Point>& viewpoint
   return with_viewpoint(viewpoint, [&](const auto& np) { return CR::triangulate_scan(file, np); });
 }
 
+constexpr const char* camera_help =
+    "fx,fy,cx,cy,scale of a depth image, a PNG file of 16 bits: the focal lengths and the image of the axis in pixels, "
+    "and "
+    "the depths to a unit of length; or FILE.json or FILE.json,scale, with the camera as Open3D writes it; IMAGE.json "
+    "beside IMAGE.png if not given";
+
+// The camera of a JSON file as Open3D writes it: the intrinsic matrix, column by column. `scale`: what stands behind
+// the name of the file, a comma and the scale, or nothing; then it is the file's `depth_scale`, or millimetres are
+// meant for metres, as there.
+inline CR::Depth_camera read_camera(const std::string& file, const std::string& scale)
+{
+  std::ifstream in(file);
+  if (!in) throw CR::IO_error(file, "the file cannot be opened");
+  CR::Depth_camera camera;
+  try {
+    const Json json = Json::parse(in);
+    const std::vector<double> matrix = json.at("intrinsic_matrix").get<std::vector<double>>();
+    if (matrix.size() != 9)
+      throw CR::IO_error(file, "intrinsic_matrix has " + std::to_string(matrix.size()) + " numbers, not 9");
+    constexpr double millimetres_in_a_metre = 1000;
+    camera = {matrix[0], matrix[4], matrix[6], matrix[7], json.value("depth_scale", millimetres_in_a_metre)};
+  } catch (const Json::exception& e) {
+    throw CR::IO_error(file, std::string("not a camera as Open3D writes it: ") + e.what());
+  }
+  if (!scale.empty()) camera.scale = numbers_of("camera", "0" + scale, 2, "FILE.json,scale").at(1);
+  return camera;
+}
+
 // As if the file said nothing of its sensor.
 inline void forget_sensor(Scan_file& file)
 {
   file.image.set_sensor(CR::Sensor<Kernel>());
+  file.sensor = CR::Sensor<Kernel>();
+}
+
+// In another unit of length.
+inline void scale(Scan_file& file, double factor)
+{
+  const Transformation scaling(CGAL::SCALING, factor);
+  CR::transform(file.image, scaling);
+  for (const auto v : file.mesh.vertices()) file.mesh.point(v) = file.mesh.point(v).transform(scaling);
+  for (Point& p : file.points) p = p.transform(scaling);
+  file.sensor = file.sensor.transformed(scaling);
+}
+
+// The camera of a depth image: that of --camera, or of the file with the same name and the end .json beside it.
+inline CR::Depth_camera camera_of(const po::variables_map& map, const std::string& scan)
+{
+  const std::optional<std::string> given = value_of<std::string>(map, "camera");
+  const std::filesystem::path path(scan);
+  if (path.extension() != ".png" && path.extension() != ".PNG") return CR::Depth_camera();
+  const std::filesystem::path beside = std::filesystem::path(path).replace_extension(".json");
+  if (!given) return std::filesystem::exists(beside) ? read_camera(beside.string(), "") : CR::Depth_camera();
+  const std::size_t json = given->find(".json");
+  if (json != std::string::npos) return read_camera(given->substr(0, json + 5), given->substr(json + 5));
+  const std::vector<double> numbers = numbers_of("camera", *given, 5, "fx,fy,cx,cy,scale");
+  return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
+}
+
+inline Scan_file read_scan(const po::variables_map& map, const std::string& file)
+{
+  return CR::read_scan<Kernel>(file, camera_of(map, file));
+}
+
+// The viewpoint that is given, or the one that the file says for points or a mesh.
+inline std::optional<Point> viewpoint_of(const Scan_file& file, const std::optional<Point>& given)
+{
+  return given || !file.sensor.is_perspective() ? given : file.sensor.viewpoint();
 }
 
 inline std::size_t number_of_samples(const Scan_file& file)

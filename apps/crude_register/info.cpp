@@ -35,6 +35,24 @@ std::string name_of(const CR::Sensor<Kernel>& sensor)
   return sensor.is_perspective() ? "perspective" : sensor.is_orthographic() ? "orthographic" : "unknown";
 }
 
+// How many of the file's normals are there, and how many of these are turned to the sensor.
+struct Normals
+{
+  std::size_t given = 0, towards = 0;
+};
+
+Normals normals_of(const Scan_file& file, const CR::Sensor<Kernel>& sensor)
+{
+  Normals normals;
+  const std::vector<Point>& points = file.kind == Scan_file::RANGE_IMAGE ? file.image.points() : file.points;
+  for (std::size_t i = 0; i < file.normals.size(); ++i) {
+    if (file.normals[i] == CGAL::NULL_VECTOR) continue;
+    ++normals.given;
+    if (sensor.is_known() && sensor.line_of_sight(points[i]) * file.normals[i] < 0) ++normals.towards;
+  }
+  return normals;
+}
+
 } // namespace
 
 int run_info(const std::vector<std::string>& arguments)
@@ -42,6 +60,7 @@ int run_info(const std::vector<std::string>& arguments)
   po::options_description options("options");
   auto add = options.add_options();
   add("viewpoint", po::value<std::string>(), "x,y,z of the sensor, for scans whose files do not tell it");
+  add("camera", po::value<std::string>(), camera_help);
   add("json", "print JSON");
   const auto given = parse("info SCAN [OPTION...]",
                            "Says what is in a scan, and what sections 4 and 5 of the method make of it: the sampling "
@@ -52,8 +71,8 @@ int run_info(const std::vector<std::string>& arguments)
   if (!given) return 0;
   const po::variables_map& map = *given;
   const std::string name = map["SCAN"].as<std::string>();
-  const std::optional<Point> viewpoint = point_of(map, "viewpoint");
-  const Scan_file file = CR::read_scan<Kernel>(name);
+  const Scan_file file = read_scan(map, name);
+  const std::optional<Point> viewpoint = viewpoint_of(file, point_of(map, "viewpoint"));
   Mesh mesh = mesh_of(file, viewpoint);
   if (mesh.number_of_faces() == 0) throw std::invalid_argument(name + ": the scan has no surface: no face is left");
 
@@ -78,6 +97,7 @@ int run_info(const std::vector<std::string>& arguments)
   const CR::Surface_type_counts counts = CR::surface_types(mesh, types);
   const std::size_t faces = mesh.number_of_faces();
   const std::size_t simplified = CR::simplify_scan(mesh, CR::parameters::approximation_error(epsilon));
+  const Normals normals = normals_of(file, sensor);
   const char* const kind = is_image ? "range image" : file.kind == Scan_file::MESH ? "mesh" : "points";
 
   if (map.count("json") > 0) {
@@ -86,7 +106,11 @@ int run_info(const std::vector<std::string>& arguments)
       json["columns"] = file.image.columns();
       json["rows"] = file.image.rows();
     }
+    json["missing"] = file.missing;
     json["sensor"] = name_of(sensor);
+    json["normals"] = normals.given;
+    if (normals.given > 0 && sensor.is_known()) json["normals_towards_sensor"] = normals.towards;
+    json["notes"] = file.notes;
     json["faces"] = faces;
     json["sampling_distance"] = s;
     json["extent"] = {extent.horizontal, extent.vertical, extent.depth};
@@ -104,11 +128,18 @@ int run_info(const std::vector<std::string>& arguments)
   }
   std::cout << "scan:       " << name << ", " << kind << '\n' << "samples:    " << number_of_samples(file);
   if (is_image) std::cout << " in a grid of " << file.image.columns() << " x " << file.image.rows();
-  std::cout << "\nsensor:     " << name_of(sensor) << "\nfaces:      " << faces << std::setprecision(6)
-            << "\ns:          " << s << "\nextent:     " << extent.horizontal << " x " << extent.vertical << " x "
-            << extent.depth << ", A = " << extent.image_size() << ", M = " << extent.mean()
-            << "\nvertices:   " << counts.planar << " planar, " << counts.parabolic << " parabolic, " << counts.elliptic
-            << " elliptic, " << counts.hyperbolic << " hyperbolic\nsmooth:     " << counts.percent_smooth()
+  if (file.missing > 0) std::cout << "\nmissing:    " << file.missing << " more, NaN, infinite or at range zero";
+  std::cout << "\nsensor:     " << name_of(sensor);
+  if (normals.given > 0) {
+    std::cout << "\nnormals:    " << normals.given << " in the file";
+    if (sensor.is_known()) std::cout << ", " << normals.towards << " of them towards the sensor";
+  }
+  for (const std::string& note : file.notes) std::cout << "\nnote:       " << note;
+  std::cout << "\nfaces:      " << faces << std::setprecision(6) << "\ns:          " << s
+            << "\nextent:     " << extent.horizontal << " x " << extent.vertical << " x " << extent.depth
+            << ", A = " << extent.image_size() << ", M = " << extent.mean() << "\nvertices:   " << counts.planar
+            << " planar, " << counts.parabolic << " parabolic, " << counts.elliptic << " elliptic, "
+            << counts.hyperbolic << " hyperbolic\nsmooth:     " << counts.percent_smooth()
             << " %\nepsilon:    " << epsilon << " (mean squared distance)\nsimplified: " << simplified << " vertices\n";
   return 0;
 }

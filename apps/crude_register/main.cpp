@@ -26,7 +26,8 @@ const char* const usage =
        crude_register simulate --output DIR [OPTION...]    write range scans of a generated body, with their poses
        crude_register COMMAND --help                       the options of a command
 
-SOURCE, TARGET and SCAN are range images (PLY with a range_grid, PTX), meshes (PLY, OFF, OBJ, STL) or points (PLY, text).
+SOURCE, TARGET and SCAN are range images (PLY with a range_grid, PTX, organised PCD, depth images in PNG), meshes (PLY, OFF,
+OBJ, STL) or points (text, PLY, PCD, NPY, LAS). FILE.ptx#2 is the second scan of a PTX file.
 )";
 
 int run(const std::vector<std::string>& arguments)

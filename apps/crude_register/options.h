@@ -16,7 +16,6 @@
 
 #include <boost/program_options.hpp>
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iostream>
@@ -76,21 +75,28 @@ std::optional<T> value_of(const po::variables_map& map, const char* option)
   return map[option].as<T>();
 }
 
-// Three numbers x,y,z, the value of an option.
+// The numbers between commas in the value of an option; `form` says what it takes.
+inline std::vector<double> numbers_of(const std::string& option, const std::string& text, std::size_t count,
+                                      const std::string& form)
+{
+  const Usage_error error("--" + option + " takes " + form + ", not '" + text + "'");
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  std::vector<double> numbers(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    char comma = ',';
+    if (i > 0) in >> comma;
+    if (comma != ',' || !(in >> numbers[i]) || !std::isfinite(numbers[i])) throw error;
+  }
+  if (in >> std::ws; !in.eof()) throw error;
+  return numbers;
+}
+
 inline std::optional<Point> point_of(const po::variables_map& map, const std::string& option)
 {
   const std::optional<std::string> text = value_of<std::string>(map, option.c_str());
   if (!text) return std::nullopt;
-  const Usage_error error("--" + option + " takes three numbers x,y,z, not '" + *text + "'");
-  std::istringstream in(*text);
-  in.imbue(std::locale::classic());
-  std::array<double, 3> c{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    char comma = ',';
-    if (i > 0) in >> comma;
-    if (comma != ',' || !(in >> c[i]) || !std::isfinite(c[i])) throw error;
-  }
-  if (in >> std::ws; !in.eof()) throw error;
+  const std::vector<double> c = numbers_of(option, *text, 3, "three numbers x,y,z");
   return Point(c[0], c[1], c[2]);
 }
 

@@ -38,6 +38,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -58,6 +59,8 @@ struct Side
 {
   std::string file;
   std::optional<Point> viewpoint;
+  CR::Depth_camera camera;
+  double unit = 1;                // of the file, in that of the answer
   bool without_viewpoint = false; // what the file says of its sensor is passed over
   Scan_file contents;
   std::unique_ptr<const Scan> scan;
@@ -98,8 +101,13 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, do
   };
   CGAL::for_each<CGAL::Parallel_if_available_tag>(sides, [&](Side& side) {
     try {
-      side.contents = CR::read_scan<Kernel>(side.file);
+      side.contents = CR::read_scan<Kernel>(side.file, side.camera);
       if (side.without_viewpoint) forget_sensor(side.contents);
+      side.viewpoint = viewpoint_of(side.contents, side.viewpoint);
+      if (side.unit != 1) {
+        scale(side.contents, side.unit);
+        if (side.viewpoint) side.viewpoint = side.viewpoint->transform(Transformation(CGAL::SCALING, side.unit));
+      }
       const auto start = Clock::now();
       const auto np = CR::parameters::time_budget(left()).candidates(generator);
       side.scan = side.viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*side.viewpoint), side.file)
@@ -128,6 +136,39 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, do
   }
   answer.search_seconds = seconds_since(start);
   return answer;
+}
+
+// The units of length that files have, in metres.
+const std::map<std::string, double> units = {{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}, {"ft", 0.3048}};
+
+// What the sizes of two scans that are not registered, or ambiguous, suggest, or nothing. The ratio is compared with 1
+// and those of units that are often mixed up: it has to be nearer to one of these than to 1, by its logarithm.
+std::string hint_of(const std::array<Side, 2>& sides)
+{
+  if (!sides[0].scan || !sides[1].scan) return "";
+  const double sizes[2] = {sides[0].scan->extent(), sides[1].scan->extent()};
+  const bool source_is_larger = sizes[0] > sizes[1];
+  const double ratio = source_is_larger ? sizes[0] / sizes[1] : sizes[1] / sizes[0];
+  const std::array<std::pair<const char*, const char*>, 4> pairs = {
+      {{"m", "ft"}, {"in", "mm"}, {"m", "cm"}, {"m", "mm"}}}; // of growing ratios
+  const std::pair<const char*, const char*>* nearest = nullptr;
+  double distance = std::abs(std::log(ratio));
+  for (const auto& pair : pairs) {
+    const double d = std::abs(std::log(ratio / (units.at(pair.first) / units.at(pair.second))));
+    if (d < distance) {
+      distance = d;
+      nearest = &pair;
+    }
+  }
+  if (nearest == nullptr) return "";
+  const char *const large = source_is_larger ? "source" : "target", *const small =
+                                                                        source_is_larger ? "target" : "source";
+  std::ostringstream text;
+  text << "the " << large << " is " << std::setprecision(3) << ratio << " times as large as the " << small
+       << ": if their units differ, say them, as by --" << large << "-unit " << nearest->second << " --" << small
+       << "-unit " << nearest->first << "; if the " << small << " is a part of the " << large
+       << ", cut that to about it";
+  return text.str();
 }
 
 // What the truth says about an answer.
@@ -172,10 +213,11 @@ std::vector<std::string> write_output(const std::string& folder, const Transform
 }
 
 void print_json(const std::array<Side, 2>& sides, const Answer& answer, const std::optional<Error>& error,
-                const std::vector<std::string>& written, bool with_times)
+                const std::vector<std::string>& written, const std::string& hint, bool with_times)
 {
   Json json = {{"source", sides[0].file}, {"target", sides[1].file}};
   add_result(json, answer.result, with_times);
+  json["hint"] = hint;
   if (error) json["error"] = {{"rotation_in_degrees", error->degrees}, {"rms_displacement", error->displacement}};
   if (with_times) {
     json["preparation_seconds"] = answer.preparation_seconds;
@@ -186,13 +228,17 @@ void print_json(const std::array<Side, 2>& sides, const Answer& answer, const st
 }
 
 void print_text(const std::array<Side, 2>& sides, const Answer& answer, const std::optional<Error>& error,
-                const std::vector<std::string>& written)
+                const std::vector<std::string>& written, const std::string& hint)
 {
   const Result& result = answer.result;
   std::cout << "source:     " << sides[0].file << ", " << number_of_samples(sides[0].contents) << " samples\n"
             << "target:     " << sides[1].file << ", " << number_of_samples(sides[1].contents) << " samples\n"
             << "status:     " << result.status() << '\n';
+  for (const Side& side : sides)
+    for (const std::string& note : side.contents.notes)
+      std::cout << "note:       " << side.file << ": " << note << '\n';
   if (!result.reason().empty()) std::cout << "reason:     " << result.reason() << '\n';
+  if (!hint.empty()) std::cout << "hint:       " << hint << '\n';
   std::cout << std::setprecision(4) << "confidence: " << result.confidence() << '\n';
   for (const std::string& name : result.free_motions()) std::cout << "free:       " << name << '\n';
   if (result.status() != CR::NOT_REGISTERED) {
@@ -208,6 +254,24 @@ void print_text(const std::array<Side, 2>& sides, const Answer& answer, const st
   std::cout << std::setprecision(3) << "seconds:    " << answer.preparation_seconds << " preparation, "
             << answer.search_seconds << " search\n";
   for (const std::string& file : written) std::cout << "written:    " << file << '\n';
+}
+
+// How many units of length of the target one of the source is.
+double ratio_of_units(const po::variables_map& map)
+{
+  std::array<double, 2> metres = {1, 1};
+  std::size_t given = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string option = i == 0 ? "source-unit" : "target-unit";
+    const auto unit = value_of<std::string>(map, option.c_str());
+    if (!unit) continue;
+    const auto found = units.find(*unit);
+    if (found == units.end()) throw Usage_error("--" + option + " takes mm, cm, m, in or ft, not '" + *unit + "'");
+    metres[i] = found->second;
+    ++given;
+  }
+  if (given == 1) throw Usage_error("--source-unit and --target-unit are given together");
+  return metres[0] / metres[1];
 }
 
 std::optional<po::variables_map> parse_register(const std::vector<std::string>& arguments)
@@ -230,6 +294,10 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("target-viewpoint", po::value<std::string>(), "the same for the target, in the target's frame");
   add("viewpoint", po::value<std::string>(), "both: the same numbers in each scan's own frame");
   add("no-viewpoint", "pass over what the files say of their sensors");
+  add("source-unit", po::value<std::string>(),
+      "mm, cm, m, in or ft: the source is scaled to the unit of the target, which the answer is in");
+  add("target-unit", po::value<std::string>(), "the unit of the target, given with the other");
+  add("camera", po::value<std::string>(), camera_help);
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
   add("time-budget", po::value<double>(),
       "seconds from the start after which preparation and search end, with the best so far");
@@ -269,8 +337,10 @@ int run_register(const std::vector<std::string>& arguments)
   sides[1].file = map["TARGET"].as<std::string>();
   for (std::size_t i = 0; i < 2; ++i) {
     sides[i].viewpoint = viewpoint_of(map, i == 0 ? "source" : "target");
+    sides[i].camera = camera_of(map, sides[i].file);
     sides[i].without_viewpoint = map.count("no-viewpoint") > 0;
   }
+  sides[0].unit = ratio_of_units(map);
   const Answer answer = [&] {
     if (method == "pairs")
       return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget);
@@ -293,8 +363,9 @@ int run_register(const std::vector<std::string>& arguments)
       written = write_output(*output, result.transformation(), source, mesh_of(sides[1].contents, sides[1].viewpoint));
   }
 
-  if (map.count("json") > 0) print_json(sides, answer, error, written, map.count("times") > 0);
-  else print_text(sides, answer, error, written);
+  const std::string hint = result.status() == CR::REGISTERED ? "" : hint_of(sides);
+  if (map.count("json") > 0) print_json(sides, answer, error, written, hint, map.count("times") > 0);
+  else print_text(sides, answer, error, written, hint);
   switch (result.status()) {
   case CR::REGISTERED:
     return EXIT_REGISTERED;

@@ -206,6 +206,41 @@ cp out.txt both.json
 expect 0 register points_0.xyz points_0.xyz --source-viewpoint "$source_sensor" --target-viewpoint "$source_sensor" --json
 cmp -s out.txt both.json || fail "--viewpoint is not the viewpoint of both sides"
 
+# Far from the origin, as in a map's coordinates: the same answer.
+for i in 0 1; do
+  awk '{ printf "%.12f %.12f %.12f\n", $1 + 500000, $2 + 5000000, $3 + 100 }' points_$i.xyz > far_$i.xyz
+done
+far_source=$(awk -F, '{ printf "%.9f,%.9f,%.9f", $1 + 500000, $2 + 5000000, $3 + 100 }' sensor_0.txt)
+far_target=$(awk -F, '{ printf "%.9f,%.9f,%.9f", $1 + 500000, $2 + 5000000, $3 + 100 }' sensor_1.txt)
+expect 0 register points_0.xyz points_1.xyz --source-viewpoint "$source_sensor" --target-viewpoint "$target_sensor" \
+  --output near
+expect 0 register far_0.xyz far_1.xyz --source-viewpoint "$far_source" --target-viewpoint "$far_target" --output far
+# What the motions do to the first point differs by less than a thousandth of a sampling distance.
+first=$(head -1 points_0.xyz)
+awk -v p="$first" 'BEGIN { split(p, x, " "); o[1] = 500000; o[2] = 5000000; o[3] = 100 }
+  { near = FILENAME ~ /near/; y = $4; for (j = 1; j <= 3; ++j) y += $j * (x[j] + (near ? 0 : o[j]))
+    if (near) a[FNR] = y; else b[FNR] = y - o[FNR] }
+  END { for (i = 1; i <= 3; ++i) { d = a[i] - b[i]; if (d > 1e-3 || d < -1e-3) { print a[i], b[i]; exit 1 } } }' \
+  near/motion.txt far/motion.txt || fail "scans far from the origin get another motion"
+
+# Units: the same scans, one in another unit, are told from each other and registered.
+awk '{ printf "%.9g %.9g %.9g\n", $1 / 1000, $2 / 1000, $3 / 1000 }' points_0.xyz > metres_0.xyz
+metres_sensor=$(awk -F, '{ printf "%.9g,%.9g,%.9g", $1 / 1000, $2 / 1000, $3 / 1000 }' sensor_0.txt)
+"$program" register metres_0.xyz points_1.xyz --source-viewpoint "$metres_sensor" --target-viewpoint "$target_sensor" \
+  > out.txt && fail "scans in different units are registered"
+says "hint:       the target is "
+says "--target-unit mm --source-unit m"
+expect 0 register metres_0.xyz points_1.xyz --source-viewpoint "$metres_sensor" --target-viewpoint "$target_sensor" \
+  --target-unit mm --source-unit m
+rejects "--source-unit" register $pair --source-unit yard --target-unit m
+rejects "given together" register $pair --source-unit m
+rejects "--camera" register a.png b.png --camera 1,2,3
+rejects "camera.json: the file cannot be opened" register a.png b.png --camera camera.json
+echo '{"intrinsic_matrix": [1, 2]}' > camera.json
+rejects "not 9" register a.png b.png --camera camera.json
+echo '{"intrinsic_matrix"' > camera.json
+rejects "not a camera as Open3D writes it" register a.png b.png --camera camera.json,1000
+
 # Two pieces of a plane: ambiguous.
 awk 'BEGIN { for (i = 0; i < 40; ++i) for (j = 0; j < 30; ++j) print i, j, 0 }' > plane_0.xyz
 awk 'BEGIN { for (i = 0; i < 30; ++i) for (j = 0; j < 40; ++j) print i, j, 0 }' > plane_1.xyz
@@ -226,14 +261,24 @@ expect 0 info moved/target.ply
 says mesh
 expect 0 info plane_0.xyz --viewpoint -20,15,100
 says points
+(echo nan nan nan nan nan nan; awk '{ print $0, 0, 0, (NR % 4 ? 1 : -1) }' plane_0.xyz) > plane_0_normals.xyz
+expect 0 info plane_0_normals.xyz --viewpoint -20,15,100 --json
+holds /missing 1
+holds /samples 1200
+holds /normals 1200
+holds /normals_towards_sensor 900
+expect 0 info plane_0_normals.xyz
+says "missing:    1 more"
+says "normals:    1200 in the file"
+says "note:       The three columns behind"
 
 # Files that do not parse, with the line where it has one; no surface; coordinates that are no numbers.
 printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2\n' \
   > broken.ply
 rejects "broken.ply:" info broken.ply
 rejects "broken.ply:" register broken.ply scans/scan_0.ply
-printf '0 0 0\n1 nan 0\n0 1 0\n' > not_finite.xyz
-rejects "not_finite.xyz:2: " info not_finite.xyz
+printf '0 0 0\n1 x 0\n0 1 0\n' > no_number.xyz
+rejects "no_number.xyz:2: " info no_number.xyz
 : > empty.xyz
 rejects "empty.xyz" register scans/scan_0.ply empty.xyz
 printf '0 0 0\n1 0 0\n2 0 0\n3 0 0\n' > line.xyz
