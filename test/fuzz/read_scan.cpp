@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -43,16 +44,21 @@ bool is_finite(const Kernel::Point_3& p)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   if (size == 0) return 0;
-  const char* extensions[] = {".ply", ".off", ".obj", ".stl", ".ptx", ".xyz", ".csv", ".ts"};
-  const std::string& name = file_name(extensions[data[0] % 8]);
+  constexpr std::array<const char*, 13> extensions = {".ply", ".off", ".obj", ".stl", ".ptx", ".xyz",   ".csv",
+                                                      ".ts",  ".pcd", ".npy", ".las", ".png", ".xyz.gz"};
+  const std::string& name = file_name(extensions[data[0] % extensions.size()]);
   {
     std::ofstream out(name, std::ios::binary);
     out.write(reinterpret_cast<const char*>(data + 1), std::streamsize(size - 1));
   }
   try {
-    const Scan scan = CR::read_scan<Kernel>(name);
+    const Scan scan = CR::read_scan<Kernel>(name, {500, 500, 3, 2, 1000});
     if (scan.kind == Scan::MESH && (!CGAL::is_valid_polygon_mesh(scan.mesh) || scan.mesh.is_empty())) std::abort();
     if (scan.kind == Scan::POINTS && scan.points.empty()) std::abort();
+    const std::size_t samples = scan.kind == Scan::POINTS ? scan.points.size() : scan.image.points().size();
+    if (!scan.normals.empty() && scan.normals.size() != samples) std::abort();
+    for (const auto& n : scan.normals)
+      if (!(n.squared_length() < 1.1)) std::abort();
     for (const auto& p : scan.points)
       if (!is_finite(p)) std::abort();
     for (const auto v : scan.mesh.vertices())

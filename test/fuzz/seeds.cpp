@@ -6,6 +6,16 @@
 
 #include <CGAL/Simple_cartesian.h>
 
+#ifdef CGAL_CRUDE_REGISTRATION_USE_GZIP
+#include <boost/iostreams/close.hpp>
+#include <boost/iostreams/device/back_inserter.hpp>
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
+#endif
+#ifdef CGAL_CRUDE_REGISTRATION_USE_PNG
+#include <png.h>
+#endif
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +24,7 @@
 #include <fstream>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -84,6 +95,86 @@ std::string binary_stl()
   return file;
 }
 
+std::vector<std::string> pcd_files()
+{
+  const auto head = [](const std::string& format) {
+    return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb normal_x normal_y normal_z\nSIZE 4 4 4 4 4 4 4\nTYPE F F F U F "
+           "F F\nCOUNT 1 1 1 1 1 "
+           "1 1\nWIDTH 2\nHEIGHT 2\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4\nDATA " +
+           format + "\n";
+  };
+  std::string text, bytes, packed;
+  for (int i = 0; i < 4; ++i) text += std::to_string(i % 2) + " " + std::to_string(i / 2) + " 3 255 0 0 1\n";
+  for (int i = 0; i < 28; ++i) bytes += binary(float(i % 7 == 6 ? 1 : i % 5), false);
+  for (std::size_t i = 0; i < bytes.size(); i += 16) packed += '\xf' + bytes.substr(i, 16);
+  return {head("ascii") + text, head("binary") + bytes,
+          head("binary_compressed") + binary(std::uint32_t(packed.size()), false) +
+              binary(std::uint32_t(bytes.size()), false) + packed,
+          head("binary_compressed") + binary(std::uint32_t(6), false) + binary(std::uint32_t(112), false) +
+              std::string("\0\0\xe0\x66\0\0", 6)};
+}
+
+std::string npy_file(int dimensions)
+{
+  std::string header = dimensions == 2 ? "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 6), }\n"
+                                       : "{'descr': '>f4', 'fortran_order': True, 'shape': (2, 3, 3), }\n";
+  std::string file = "\x93NUMPY\1" + std::string(1, '\0') + binary(std::uint16_t(header.size()), false) + header;
+  for (int i = 0; i < 18; ++i)
+    file += dimensions == 2 ? binary(i % 6 == 5  ? 1.
+                                     : i % 6 > 2 ? 0.
+                                                 : double(i),
+                                     false)
+                            : binary(float(i * i % 7), true);
+  return file;
+}
+
+std::string las_file(int minor)
+{
+  std::string file(375, '\0');
+  file.replace(0, 4, "LASF");
+  file[24] = 1;
+  file[25] = char(minor);
+  file.replace(96, 4, binary(std::uint32_t(375), false));
+  file.replace(105, 2, binary(std::uint16_t(20), false));
+  file.replace(107, 4, binary(std::uint32_t(3), false));
+  file.replace(247, 8, binary(std::uint64_t(3), false));
+  for (std::size_t i = 0; i < 3; ++i) file.replace(131 + 8 * i, 8, binary(0.01, false));
+  for (int i = 0; i < 15; ++i) file += binary(std::int32_t(100 * i * i), false);
+  return file;
+}
+
+std::string depth_image()
+{
+  std::string file;
+#ifdef CGAL_CRUDE_REGISTRATION_USE_PNG
+  const std::vector<std::uint16_t> depths = {1000, 1001, 0, 1003, 1004, 1007};
+  png_image head{};
+  head.version = PNG_IMAGE_VERSION;
+  head.width = 3;
+  head.height = 2;
+  head.format = PNG_FORMAT_LINEAR_Y;
+  png_alloc_size_t size = 1000;
+  file.resize(size);
+  if (!png_image_write_to_memory(&head, file.data(), &size, 0, depths.data(), 0, nullptr))
+    throw std::runtime_error("cannot write a PNG image");
+  file.resize(size);
+#endif
+  return file;
+}
+
+std::string packed([[maybe_unused]] const std::string& text)
+{
+  std::string file;
+#ifdef CGAL_CRUDE_REGISTRATION_USE_GZIP
+  boost::iostreams::filtering_ostream out;
+  out.push(boost::iostreams::gzip_compressor());
+  out.push(boost::iostreams::back_inserter(file));
+  out << text;
+  boost::iostreams::close(out);
+#endif
+  return file;
+}
+
 // A bent sheet of (n + 1)^2 vertices, `shift` further along.
 Byte_mesh sheet(int n, double shift)
 {
@@ -127,7 +218,7 @@ void write_seeds(const std::filesystem::path& folder)
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
       "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n",
       images[0], images[3], images[4]};
-  const std::vector<std::vector<std::string>> scans = {
+  std::vector<std::vector<std::string>> scans = {
       ply,
       {"OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n4 0 2 1 3\n", "COFF\n3 1 0\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n"
                                                                        "0 1 0 1 1 1 1\n3 0 1 2\n"},
@@ -137,9 +228,14 @@ void write_seeds(const std::filesystem::path& folder)
        binary_stl()},
       {"2\n2\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 0 0 0.5\n1 0 1 0.5\n0 0 0 0\n2 0 1 "
        "1\n"},
-      {"1 2 3\n-4 5.5 6\n0.1 0 -1e-3\n", "3\n1 2 3 7 8 9\n4 5 6\n7 8 9\n"},
-      {"id,\"x\",y,z\n9,1,2,3\n9,-4,5.5,6\n", "1;2;3\n4;5;6\n"},
+      {"1 2 3\n-4 5.5 6\n0.1 0 -1e-3\n", "3\n1 2 3 7 8 9\n4 5 6\n7 8 9\n",
+       "Scan\n0 1 2 3 0 0 1\n1 4 5 6 0 1 0\n2 7 nan 9 0 0 0\n", "// X Y Z\n1,5 2,5 3\n4 5,5 6\n"},
+      {"id,\"x\",y,z\n9,1,2,3\n9,-4,5.5,6\n", "1,5;2;3\n4;5;6\n",
+       "\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3\n0,0,0\n0,0,0\n"},
       {"GOCAD TSURF 1\nHEADER {\nname: a\n}\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\nEND\n"}};
+  std::vector<std::vector<std::string>> others = {
+      pcd_files(), {npy_file(2), npy_file(3)}, {las_file(2), las_file(4)}, {depth_image()}, {packed("1 2 3\n4 5 6\n")}};
+  scans.insert(scans.end(), others.begin(), others.end());
   for (std::size_t i = 0; i < scans.size(); ++i)
     for (std::size_t k = 0; k < scans[i].size(); ++k)
       write(folder / "read_scan", std::to_string(i) + "_" + std::to_string(k), char(i) + scans[i][k]);
