@@ -38,8 +38,8 @@ inline Flat_scan_file read_las(std::string_view data, const std::string& file)
   const std::size_t shortest_header = 227;
   if (data.size() < shortest_header) fail(data.size(), "the file ends within the header");
   if (data.substr(0, 4) != "LASF") fail(0, "not a LAS file: it does not start with 'LASF'");
-  const int major = data[24], minor = data[25];
-  if (major != 1 || minor < 0 || minor > 4)
+  const int major = static_cast<unsigned char>(data[24]), minor = static_cast<unsigned char>(data[25]);
+  if (major != 1 || minor > 4)
     fail(24, "LAS " + std::to_string(major) + "." + std::to_string(minor) + " is not read, 1.0 to 1.4 are");
   const std::size_t start = number_at<std::uint32_t>(data, 96), record = number_at<std::uint16_t>(data, 105);
   const unsigned format = static_cast<unsigned char>(data[104]);

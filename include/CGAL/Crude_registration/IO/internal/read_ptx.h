@@ -146,7 +146,7 @@ private:
   Vector read_finite()
   {
     const auto c = read_coordinates(m_cursor);
-    const Vector v(c[0], c[1], c[2]);
+    Vector v(c[0], c[1], c[2]);
     if (!v.allFinite()) m_cursor.fail("a number is NaN or infinite");
     return v;
   }
