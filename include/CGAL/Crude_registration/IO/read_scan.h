@@ -84,7 +84,8 @@ struct Scan_file
 The format is told by the first bytes of the file where these are unmistakable (PLY, OFF, PCD, NPY, PNG, LAS), else by
 the end of its name:
 
-- `.ply` with an `element range_grid`: a range image, see `read_range_image()`; with faces: a mesh; else points;
+- `.ply` with an `element range_grid`: a range image, see `read_range_image()`; with faces: a mesh; else points; the
+  `obj_info` of a sensor is read for all of them;
 - `.off`, `.obj`, `.stl`, `.ts` and, where the program was built with VTK, `.vtp`: a mesh, or points where there is no
 face;
 - `.ptx`: a range image, moved to the world as the file says, with a perspective sensor at the scanner's place. Of
