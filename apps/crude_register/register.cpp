@@ -212,12 +212,22 @@ std::vector<std::string> write_output(const std::string& folder, const Transform
   return files;
 }
 
+// How the files were understood.
+std::vector<std::string> notes_of(const std::array<Side, 2>& sides)
+{
+  std::vector<std::string> notes;
+  for (const Side& side : sides)
+    for (const std::string& note : side.contents.notes) notes.push_back(side.file + ": " + note);
+  return notes;
+}
+
 void print_json(const std::array<Side, 2>& sides, const Answer& answer, const std::optional<Error>& error,
                 const std::vector<std::string>& written, const std::string& hint, bool with_times)
 {
   Json json = {{"source", sides[0].file}, {"target", sides[1].file}};
   add_result(json, answer.result, with_times);
   json["hint"] = hint;
+  json["notes"] = notes_of(sides);
   if (error) json["error"] = {{"rotation_in_degrees", error->degrees}, {"rms_displacement", error->displacement}};
   if (with_times) {
     json["preparation_seconds"] = answer.preparation_seconds;
@@ -234,9 +244,7 @@ void print_text(const std::array<Side, 2>& sides, const Answer& answer, const st
   std::cout << "source:     " << sides[0].file << ", " << number_of_samples(sides[0].contents) << " samples\n"
             << "target:     " << sides[1].file << ", " << number_of_samples(sides[1].contents) << " samples\n"
             << "status:     " << result.status() << '\n';
-  for (const Side& side : sides)
-    for (const std::string& note : side.contents.notes)
-      std::cout << "note:       " << side.file << ": " << note << '\n';
+  for (const std::string& note : notes_of(sides)) std::cout << "note:       " << note << '\n';
   if (!result.reason().empty()) std::cout << "reason:     " << result.reason() << '\n';
   if (!hint.empty()) std::cout << "hint:       " << hint << '\n';
   std::cout << std::setprecision(4) << "confidence: " << result.confidence() << '\n';

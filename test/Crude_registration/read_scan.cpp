@@ -109,6 +109,7 @@ BOOST_AUTO_TEST_CASE(heads_that_programs_write)
 {
   const std::string points = "1 2 3\n-4 5.5 6\n0.1 0 -1e-3\n";
   BOOST_TEST(are(read("a.xyz", "\xef\xbb\xbf" + points), three));
+  BOOST_TEST(are(read("a.off", "\xef\xbb\xbfOFF\n3 0 0\n" + points), three));
   BOOST_TEST(are(read("a.txt", "Scan 1\nexported 2020\n" + points), three));
   BOOST_TEST(are(read("a.txt", "Scan\n3\n" + points), three));
   BOOST_TEST(are(read("a.csv", "\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3\n-4,5.5,6\n0.1,0,-1e-3\n"), three));

@@ -288,6 +288,7 @@ inline Named_contents contents_of(const std::string& filename)
     contents.data = unpack_gzip(contents.data, filename);
     if (contents.extension == ".gz") contents.extension = lower_case_extension(filename.substr(0, filename.size() - 3));
   }
+  if (contents.data.compare(0, 3, "\xef\xbb\xbf") == 0) contents.data.erase(0, 3); // the mark of UTF-8
   if (contents.data.empty()) throw IO_error(filename, "the file is empty");
   return contents;
 }
@@ -297,7 +298,6 @@ inline Flat_scan_file read_text(std::string_view text, const std::string& file)
   const auto starts_with = [&](std::string_view start) { return text.substr(0, start.size()) == start; };
   if (starts_with("\xff\xfe") || starts_with("\xfe\xff"))
     throw IO_error(file, "the text is in UTF-16: save it as UTF-8");
-  if (starts_with("\xef\xbb\xbf")) text.remove_prefix(3); // the mark of UTF-8
   if (text.substr(0, 4096).find('\0') != std::string_view::npos)
     throw IO_error(file, "the format of the file is not known");
   return to_scan(Text_point_reader(text, file).read(), file);
