@@ -11,6 +11,7 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "sides.h"
 
 #include <CGAL/Crude_registration/judge_motion.h>
 
@@ -62,10 +63,10 @@ Transformation read_motion(const std::string& file)
   return Transformation(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11]);
 }
 
-Scan scan_of(const std::string& file, const std::optional<Point>& viewpoint)
+Scan scan_of(Scan_of_a_side& side)
 {
-  const Scan_file contents = CR::read_scan<Kernel>(file);
-  return with_viewpoint(viewpoint, [&](const auto& np) { return Scan(contents, np, file); });
+  side.read();
+  return with_viewpoint(side.viewpoint, [&](const auto& np) { return Scan(side.contents, np, side.file); });
 }
 
 int exit_code_of(CR::Motion_status status)
@@ -89,8 +90,7 @@ int run_judge(const std::vector<std::string>& arguments)
   auto add = options.add_options();
   add("motion", po::value<std::string>()->required(),
       "file of the motion that maps SOURCE onto TARGET: the rows of a 3 x 4 or 4 x 4 matrix, or the JSON of register");
-  add("viewpoint", po::value<std::string>(),
-      "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
+  add_options_of_sides(options);
   add("json", "print JSON, the same bytes for the same scans");
   const auto given = parse("judge SOURCE TARGET --motion FILE [OPTION...]",
                            "Says of a motion that somebody found whether it maps SOURCE onto TARGET.\n"
@@ -98,11 +98,11 @@ int run_judge(const std::vector<std::string>& arguments)
                            options, {"SOURCE", "TARGET"}, arguments);
   if (!given) return 0;
   const po::variables_map& map = *given;
-  const std::optional<Point> viewpoint = viewpoint_of(map);
+  std::array<Scan_of_a_side, 2> sides = sides_of(map);
   const std::string source = map["SOURCE"].as<std::string>(), target = map["TARGET"].as<std::string>(),
                     file = map["motion"].as<std::string>();
   const Transformation motion = read_motion(file);
-  const Scan source_scan = scan_of(source, viewpoint), target_scan = scan_of(target, viewpoint);
+  const Scan source_scan = scan_of(sides[0]), target_scan = scan_of(sides[1]);
   const auto judged = [&] {
     try {
       return CR::judge_motion<CGAL::Parallel_if_available_tag>(source_scan, target_scan, motion);

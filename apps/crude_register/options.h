@@ -100,17 +100,6 @@ inline std::optional<Point> point_of(const po::variables_map& map, const std::st
   return Point(c[0], c[1], c[2]);
 }
 
-// The viewpoint of a side, "source" or "target": its own option's, or the one of --viewpoint, which is for both.
-inline std::optional<Point> viewpoint_of(const po::variables_map& map, const std::string& side)
-{
-  const std::string own = side + "-viewpoint";
-  const std::optional<Point> both = point_of(map, "viewpoint"), given = point_of(map, own);
-  if (both && given) throw Usage_error("--viewpoint is for both scans: --" + own + " excludes it");
-  if (map.count("no-viewpoint") > 0 && (both || given))
-    throw Usage_error(std::string("--no-viewpoint excludes --") + (both ? "viewpoint" : own));
-  return both ? both : given;
-}
-
 // Calls f with the named parameters that say where the sensor was, if it is known.
 template <class Function>
 auto with_viewpoint(const std::optional<Point>& viewpoint, const Function& f)

@@ -11,6 +11,7 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "sides.h"
 
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
@@ -55,14 +56,8 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-struct Side
+struct Side : Scan_of_a_side
 {
-  std::string file;
-  std::optional<Point> viewpoint;
-  CR::Depth_camera camera;
-  double unit = 1;                // of the file, in that of the answer
-  bool without_viewpoint = false; // what the file says of its sensor is passed over
-  Scan_file contents;
   std::unique_ptr<const Scan> scan;
   double seconds = 0;
   std::string interruption;   // the time budget's end, before there was a scan
@@ -101,13 +96,7 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, do
   };
   CGAL::for_each<CGAL::Parallel_if_available_tag>(sides, [&](Side& side) {
     try {
-      side.contents = CR::read_scan<Kernel>(side.file, side.camera);
-      if (side.without_viewpoint) forget_sensor(side.contents);
-      side.viewpoint = viewpoint_of(side.contents, side.viewpoint);
-      if (side.unit != 1) {
-        scale(side.contents, side.unit);
-        if (side.viewpoint) side.viewpoint = side.viewpoint->transform(Transformation(CGAL::SCALING, side.unit));
-      }
+      side.read();
       const auto start = Clock::now();
       const auto np = CR::parameters::time_budget(left()).candidates(generator);
       side.scan = side.viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*side.viewpoint), side.file)
@@ -137,9 +126,6 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, do
   answer.search_seconds = seconds_since(start);
   return answer;
 }
-
-// The units of length that files have, in metres.
-const std::map<std::string, double> units = {{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}, {"ft", 0.3048}};
 
 // What the sizes of two scans that are not registered, or ambiguous, suggest, or nothing. The ratio is compared with 1
 // and those of units that are often mixed up: it has to be nearer to one of these than to 1, by its logarithm.
@@ -264,24 +250,6 @@ void print_text(const std::array<Side, 2>& sides, const Answer& answer, const st
   for (const std::string& file : written) std::cout << "written:    " << file << '\n';
 }
 
-// How many units of length of the target one of the source is.
-double ratio_of_units(const po::variables_map& map)
-{
-  std::array<double, 2> metres = {1, 1};
-  std::size_t given = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::string option = i == 0 ? "source-unit" : "target-unit";
-    const auto unit = value_of<std::string>(map, option.c_str());
-    if (!unit) continue;
-    const auto found = units.find(*unit);
-    if (found == units.end()) throw Usage_error("--" + option + " takes mm, cm, m, in or ft, not '" + *unit + "'");
-    metres[i] = found->second;
-    ++given;
-  }
-  if (given == 1) throw Usage_error("--source-unit and --target-unit are given together");
-  return metres[0] / metres[1];
-}
-
 std::optional<po::variables_map> parse_register(const std::vector<std::string>& arguments)
 {
   po::options_description options("options");
@@ -297,15 +265,7 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("output", po::value<std::string>(),
       "folder for source_moved.ply, target.ply and motion.txt (the 4 x 4 matrix); "
       "made if missing, written unless the scans are not registered");
-  add("source-viewpoint", po::value<std::string>(),
-      "x,y,z of the sensor that saw the source, in the source's frame, where its file does not tell it");
-  add("target-viewpoint", po::value<std::string>(), "the same for the target, in the target's frame");
-  add("viewpoint", po::value<std::string>(), "both: the same numbers in each scan's own frame");
-  add("no-viewpoint", "pass over what the files say of their sensors");
-  add("source-unit", po::value<std::string>(),
-      "mm, cm, m, in or ft: the source is scaled to the unit of the target, which the answer is in");
-  add("target-unit", po::value<std::string>(), "the unit of the target, given with the other");
-  add("camera", po::value<std::string>(), camera_help);
+  add_options_of_sides(options);
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
   add("time-budget", po::value<double>(),
       "seconds from the start after which preparation and search end, with the best so far");
@@ -341,14 +301,8 @@ int run_register(const std::vector<std::string>& arguments)
   const auto poses = poses_file ? read_poses(*poses_file) : std::map<std::string, Transformation>();
 
   std::array<Side, 2> sides;
-  sides[0].file = map["SOURCE"].as<std::string>();
-  sides[1].file = map["TARGET"].as<std::string>();
-  for (std::size_t i = 0; i < 2; ++i) {
-    sides[i].viewpoint = viewpoint_of(map, i == 0 ? "source" : "target");
-    sides[i].camera = camera_of(map, sides[i].file);
-    sides[i].without_viewpoint = map.count("no-viewpoint") > 0;
-  }
-  sides[0].unit = ratio_of_units(map);
+  const std::array<Scan_of_a_side, 2> given_sides = sides_of(map);
+  for (std::size_t i = 0; i < 2; ++i) static_cast<Scan_of_a_side&>(sides[i]) = given_sides[i];
   const Answer answer = [&] {
     if (method == "pairs")
       return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget);
