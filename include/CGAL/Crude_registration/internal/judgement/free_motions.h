@@ -103,12 +103,23 @@ inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, double J
   from_centre.topLeftCorner<3, 3>() /= radius;
   from_centre.bottomLeftCorner<3, 3>() = cross / radius;
   const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(to_centre * covariance * to_centre.transpose());
-  const double rival = judge.weighed(to_pose(motion)).*log_odds - std::log(believed / (1 - believed));
+  const Pose here = to_pose(motion);
+  const double rival = judge.weighed(here).*log_odds - std::log(believed / (1 - believed));
+  // Whether a pose is still as far away as half of what it was moved by.
+  const auto is_away = [&](const Pose& p) {
+    const double turn = radius * double((p.rotation - here.rotation).norm()) / std::sqrt(2.);
+    return std::hypot(turn, double((p.translation - here.translation).norm())) > spacing;
+  };
   std::vector<Vector_6> free;
   for (int k = 5; k >= 0; --k) {
     const Vector_6 twist = from_centre * eigen.vectors.col(k);
     const auto moved = [&](double distance) {
-      return judge.weighed(to_pose(exponential(twist, distance) * motion)).*log_odds;
+      const Pose there = to_pose(exponential(twist, distance) * motion);
+      const double odds = judge.weighed(there).*log_odds;
+      if (odds >= rival) return odds;
+      // The motion is known to some digits only; what is free stays where refinement finds it.
+      const Pose refined = judge.refined(there);
+      return is_away(refined) ? (std::max)(odds, judge.weighed(refined).*log_odds) : odds;
     };
     if ((std::max)(moved(2 * spacing), moved(-2 * spacing)) < rival) break;
     free.push_back(twist);

@@ -239,6 +239,16 @@ CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Redu
         return !all.empty() && (all.front().probability >= certain || all.front().probability <= 1 - certain);
       });
   if (outcome.registration.poses.empty()) return outcome;
+  Verdict& verdict = outcome.registration.verdict;
+  double rival = 0;
+  for (std::size_t i = 1; i < outcome.registration.poses.size(); ++i)
+    rival = (std::max)(rival, outcome.registration.poses[i].probability);
+  const double probability = outcome.registration.poses.front().probability;
+  if (verdict.status != NOT_REGISTERED && probability < 0.5 * rival) {
+    verdict = Verdict();
+    verdict.confidence = probability;
+    verdict.reason = "another motion is far more probable";
+  }
   const Rigid_motion refined = target.own_from_input *
                                (is_swapped ? outcome.registration.motion.inverse() : outcome.registration.motion) *
                                source.own_from_input.inverse();
