@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.22)
 set(rooms
   "named_parameters.h|IO/IO_error.h|internal/base/.*"
-  "Registration_status.h|Registration_result.h|Sensor.h|Range_image.h"
+  "Registration_status.h|Registration_result.h|Assembly_status.h|Assembly_result.h|Sensor.h|Range_image.h"
   "internal/mesh/.*"
   "internal/lookup/.*"
   "(internal/)?sampling/.*"
@@ -15,10 +15,12 @@ set(rooms
   "(internal/)?matching/.*"
   "(internal/)?simulation/.*"
   "internal/pipeline/.*"
+  "internal/assembly/.*"
   "Scan.h"
   "IO/.*"
   "register_scans.h"
   "judge_motion.h"
+  "assemble_scans.h"
   "register_meshes.h"
   "all_headers.h")
 

@@ -23,6 +23,7 @@ enum Exit_code
 
 int run_register(const std::vector<std::string>& arguments);
 int run_judge(const std::vector<std::string>& arguments);
+int run_assemble(const std::vector<std::string>& arguments);
 int run_info(const std::vector<std::string>& arguments);
 int run_simulate(const std::vector<std::string>& arguments);
 

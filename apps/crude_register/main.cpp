@@ -5,7 +5,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The command line: registers scans, says what is in one, and simulates some.
+// The command line: registers scans, puts many together, says what is in one, and simulates some.
 
 #include "commands.h"
 #include "options.h"
@@ -22,6 +22,7 @@ namespace {
 const char* const usage =
     R"(usage: crude_register register SOURCE TARGET [OPTION...]   find the motion that maps SOURCE onto TARGET
        crude_register judge SOURCE TARGET --motion FILE    say of a motion that somebody found whether it is right
+       crude_register assemble SCAN... [OPTION...]         put many scans together: a pose for each
        crude_register info SCAN [OPTION...]                say what is in a scan, and what the method makes of it
        crude_register simulate --output DIR [OPTION...]    write range scans of a generated body, with their poses
        crude_register COMMAND --help                       the options of a command
@@ -37,6 +38,7 @@ int run(const std::vector<std::string>& arguments)
   const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
   if (command == "register") return run_register(rest);
   if (command == "judge") return run_judge(rest);
+  if (command == "assemble") return run_assemble(rest);
   if (command == "info") return run_info(rest);
   if (command == "simulate") return run_simulate(rest);
   if (command == "--help" || command == "-h" || command == "help") {

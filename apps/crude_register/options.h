@@ -38,11 +38,12 @@ struct Usage_error : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-// The arguments of a command, or nothing if they asked for help, which is written.
+// The arguments of a command, or nothing if they asked for help, which is written. `rest`: the name of what may be
+// given any number of times, at least once, after the others.
 inline std::optional<po::variables_map> parse(const std::string& synopsis, const std::string& about,
                                               const po::options_description& options,
                                               const std::vector<std::string>& positional,
-                                              const std::vector<std::string>& arguments)
+                                              const std::vector<std::string>& arguments, const std::string& rest = "")
 {
   po::options_description all;
   all.add(options).add_options()("help,h", "");
@@ -50,6 +51,10 @@ inline std::optional<po::variables_map> parse(const std::string& synopsis, const
   for (const std::string& name : positional) {
     all.add_options()(name.c_str(), po::value<std::string>());
     places.add(name.c_str(), 1);
+  }
+  if (!rest.empty()) {
+    all.add_options()(rest.c_str(), po::value<std::vector<std::string>>());
+    places.add(rest.c_str(), -1);
   }
   po::variables_map map;
   try {
@@ -64,6 +69,7 @@ inline std::optional<po::variables_map> parse(const std::string& synopsis, const
   }
   for (const std::string& name : positional)
     if (map.count(name) == 0) throw Usage_error("no " + name + " is given");
+  if (!rest.empty() && map.count(rest) == 0) throw Usage_error("no " + rest + " is given");
   return map;
 }
 

@@ -15,6 +15,8 @@
 // The public headers of the package, for CGAL/Crude_registration.h.
 
 #include <CGAL/Crude_registration/IO/Depth_camera.h>
+#include <CGAL/Crude_registration/Assembly_result.h>
+#include <CGAL/Crude_registration/Assembly_status.h>
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>
@@ -27,6 +29,7 @@
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/judge_motion.h>
+#include <CGAL/Crude_registration/assemble_scans.h>
 #include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
 #include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
 #include <CGAL/Crude_registration/matching/Trihedron_candidates.h>

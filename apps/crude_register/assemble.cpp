@@ -1,0 +1,253 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// assemble: puts many scans together.
+
+#include "commands.h"
+#include "files.h"
+#include "json.h"
+#include "options.h"
+
+#include <CGAL/Crude_registration/Scan.h>
+#include <CGAL/Crude_registration/assemble_scans.h>
+
+#include <CGAL/for_each.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <exception>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using Scan = CR::Scan<Kernel>;
+using Result = CR::Assembly_result<Kernel>;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Input
+{
+  std::string file;
+  std::optional<Scan> scan;
+  std::exception_ptr failure;
+};
+
+// Reads and prepares the scans; of several failures the first is reported.
+std::vector<Scan> prepared(const std::vector<std::string>& files, const std::optional<Point>& viewpoint)
+{
+  std::vector<Input> inputs;
+  for (const std::string& file : files) inputs.push_back({file, {}, {}});
+  CGAL::for_each<CGAL::Parallel_if_available_tag>(inputs, [&](Input& input) {
+    try {
+      const Scan_file contents = CR::read_scan<Kernel>(input.file);
+      with_viewpoint(viewpoint, [&](const auto& np) { input.scan.emplace(contents, np, input.file); });
+    } catch (...) {
+      input.failure = std::current_exception();
+    }
+    return true;
+  });
+  std::vector<Scan> scans;
+  for (Input& input : inputs) {
+    if (input.failure) std::rethrow_exception(input.failure);
+    scans.push_back(std::move(*input.scan));
+  }
+  return scans;
+}
+
+// What scans are called in the output: their files without folders where that tells them apart.
+std::vector<std::string> names_of(const std::vector<std::string>& files)
+{
+  std::vector<std::string> names;
+  for (const std::string& file : files) names.push_back(base_name(file));
+  const std::set<std::string> distinct(names.begin(), names.end());
+  return distinct.size() == names.size() ? names : files;
+}
+
+// A line a scan, its name and the rows of its 3 x 4 matrix; a comment before each component.
+void write_poses(std::ostream& out, const Result& result, const std::vector<std::string>& names)
+{
+  for (std::size_t c = 0; c < result.number_of_components(); ++c) {
+    out << "# component " << c << '\n';
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (result.component(i) != c) continue;
+      out << names[i];
+      write_rows(out, result.pose(i), " ", "");
+      out << '\n';
+    }
+  }
+}
+
+// The pairs that were tried, as GraphViz draws them: what is used by lines, what was dropped or not believed by dashes.
+void write_graph(std::ostream& out, const Result& result, const std::vector<std::string>& names)
+{
+  const auto quoted = [](const std::string& name) {
+    std::string text = "\"";
+    for (const char c : name) {
+      if (c == '"' || c == '\\') text += '\\';
+      text += c;
+    }
+    return text + '"';
+  };
+  out << "graph assembly {\n";
+  for (std::size_t c = 0; c < result.number_of_components(); ++c) {
+    out << "  subgraph cluster_" << c << " {\n";
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (result.component(i) == c) out << "    " << quoted(names[i]) << ";\n";
+    out << "  }\n";
+  }
+  for (const auto& e : result.edges()) {
+    if (e.status == CR::WITHOUT_OVERLAP) continue;
+    std::ostringstream label;
+    label.imbue(std::locale::classic());
+    label << std::setprecision(2) << e.overlap;
+    out << "  " << quoted(names[e.source]) << " -- " << quoted(names[e.target]) << " [label=\"" << label.str() << '"';
+    if (e.status != CR::USED) out << ", style=dashed, color=" << (e.status == CR::DROPPED ? "red" : "gray");
+    out << "];\n";
+  }
+  out << "}\n";
+}
+
+template <class Value>
+std::string text_of(const Value& value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+Json to_json(const Result& result, const std::vector<std::string>& files, bool with_times)
+{
+  Json json;
+  json["components"] = result.number_of_components();
+  json["interrupted"] = result.is_interrupted();
+  Json& scans = json["scans"] = Json::array();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& s = result.scans()[i];
+    scans.push_back({{"file", files[i]},
+                     {"component", s.component},
+                     {"reason", s.reason},
+                     {"residual", s.residual},
+                     {"pose", ::to_json(s.pose)},
+                     {"covariance", s.covariance}});
+  }
+  Json& edges = json["edges"] = Json::array();
+  for (const auto& e : result.edges())
+    edges.push_back({{"source", e.source},
+                     {"target", e.target},
+                     {"status", text_of(e.status)},
+                     {"reason", e.reason},
+                     {"registration", text_of(e.registration)},
+                     {"confidence", e.confidence},
+                     {"overlap", e.overlap},
+                     {"residual", e.residual}});
+  Json& overlaps = json["overlaps"] = Json::array();
+  for (const auto& o : result.overlaps())
+    overlaps.push_back({{"source", o.source}, {"target", o.target}, {"overlap", o.overlap}, {"residual", o.residual}});
+  Json& statistics = json["statistics"] = Json::array();
+  for (const auto& stage : result.statistics()) {
+    Json& entry = statistics.emplace_back(Json{{"stage", stage.name}, {"count", stage.count}});
+    if (with_times) entry["seconds"] = stage.seconds;
+  }
+  return json;
+}
+
+void print_text(const Result& result, const std::vector<std::string>& names)
+{
+  std::cout << std::setprecision(3);
+  for (std::size_t c = 0; c < result.number_of_components(); ++c) {
+    std::cout << "component " << c << '\n';
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto& s = result.scans()[i];
+      if (s.component != c) continue;
+      std::cout << "  " << names[i];
+      if (s.reason.empty()) std::cout << ", residual " << s.residual << " sampling distances\n";
+      else std::cout << ", alone: " << s.reason << '\n';
+    }
+  }
+  std::size_t used = 0;
+  for (const auto& e : result.edges()) used += e.status == CR::USED;
+  std::cout << result.edges().size() << " pairs were registered, " << used << " of them are used\n";
+  for (const auto& e : result.edges())
+    if (e.status == CR::DROPPED || e.status == CR::NOT_CONNECTING)
+      std::cout << "  " << names[e.source] << " - " << names[e.target] << ' ' << e.status << ": " << e.reason << '\n';
+}
+
+} // namespace
+
+int run_assemble(const std::vector<std::string>& arguments)
+{
+  po::options_description options("options");
+  auto add = options.add_options();
+  add("poses", po::value<std::string>(),
+      "file for the poses: a line a scan, its name and the rows of its 3 x 4 matrix, which maps it into the frame of "
+      "the first scan of its component; a line '# component' before each component");
+  add("viewpoint", po::value<std::string>(),
+      "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
+  add("graph", po::value<std::string>(), "file for the graph of the pairs, for GraphViz");
+  add("time-budget", po::value<double>(), "seconds after which the search ends, with what has been found");
+  add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
+  add("json", "print JSON, the same bytes for the same scans");
+  add("times", "add the times to the JSON, or to the text");
+  const auto given = parse("assemble SCAN... [OPTION...]",
+                           "Puts scans together, in any order: finds a pose for each. What cannot be connected with "
+                           "certainty stays apart,\nas a component of its own.\n"
+                           "Exit code: 0 some scans are connected, 3 none are, 1 error.\n",
+                           options, {}, arguments, "SCAN");
+  if (!given) return 0;
+  const po::variables_map& map = *given;
+  const std::optional<Point> viewpoint = viewpoint_of(map);
+  const std::optional<int> threads = value_of<int>(map, "threads");
+  if (threads && *threads < 1) throw Usage_error("--threads takes a number above zero");
+#ifdef CGAL_LINKED_WITH_TBB
+  // Never destroyed: where the limit is lifted, TBB starts a thread, which fails where memory has run out.
+  [[maybe_unused]] static const tbb::global_control* limit = nullptr;
+  if (threads) limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(*threads));
+#endif
+  const double time_budget = value_of<double>(map, "time-budget").value_or((std::numeric_limits<double>::max)());
+  if (!(time_budget > 0 && std::isfinite(time_budget))) throw Usage_error("--time-budget takes seconds, above zero");
+
+  const auto files = map["SCAN"].as<std::vector<std::string>>();
+  const std::vector<std::string> names = names_of(files);
+  const auto start = Clock::now();
+  const std::vector<Scan> scans = prepared(files, viewpoint);
+  const double preparation = seconds_since(start);
+  constexpr double shortest = 1e-9;
+  const Result result = CR::assemble_scans<CGAL::Parallel_if_available_tag>(
+      scans, CR::parameters::time_budget((std::max)(shortest, time_budget - preparation)));
+
+  if (const auto file = value_of<std::string>(map, "poses"))
+    CR::write_file(*file, [&](std::ostream& out) { write_poses(out, result, names); });
+  if (const auto file = value_of<std::string>(map, "graph"))
+    CR::write_file(*file, [&](std::ostream& out) { write_graph(out, result, names); });
+  const bool with_times = map.count("times") > 0;
+  if (map.count("json") > 0) std::cout << to_text(to_json(result, files, with_times)) << '\n';
+  else print_text(result, names);
+  if (with_times && map.count("json") == 0) {
+    std::cout << "seconds: " << preparation << " to read and prepare, " << seconds_since(start) << " in all\n";
+    for (const auto& stage : result.statistics())
+      std::cout << "  " << stage.name << ' ' << stage.count << ' ' << stage.seconds << '\n';
+  }
+  return files.size() == 1 || result.number_of_components() < files.size() ? EXIT_REGISTERED : EXIT_NOT_REGISTERED;
+}

@@ -1,0 +1,154 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Author(s)     : The Crude_registration authors
+
+#ifndef CGAL_CRUDE_REGISTRATION_ASSEMBLE_SCANS_H
+#define CGAL_CRUDE_REGISTRATION_ASSEMBLE_SCANS_H
+
+// Puts many scans together: unordered scans to one pose each.
+
+#include <CGAL/Crude_registration/Assembly_result.h>
+#include <CGAL/Crude_registration/Scan.h>
+#include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
+#include <CGAL/Crude_registration/internal/motion/Refinement.h>
+#include <CGAL/Crude_registration/named_parameters.h>
+#include <CGAL/Crude_registration/register_scans.h>
+
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// What an assembly takes from the registration of a pair: its distinct motions with their probabilities. The confidence
+// is that of the best motion; the others share what it leaves by their scores, at most as much as it has.
+template <class Kernel>
+Pair_answer to_pair_answer(const Registration_result<Kernel>& result)
+{
+  Pair_answer answer;
+  answer.status = result.status();
+  answer.reason = result.reason();
+  answer.overlap = result.overlap();
+  answer.residual = result.residual();
+  double sum = 0;
+  for (const auto& r : result.runners_up()) sum += (std::max)(r.score, 0.);
+  double left = 1 - result.confidence();
+  if (result.status() != NOT_REGISTERED)
+    answer.motions.push_back({to_rigid_motion(result.transformation()), result.confidence()});
+  // What was not registered has motions, too, none of which is probable.
+  else left = (std::min)(left, result.confidence());
+  constexpr std::size_t most = 5;
+  for (const auto& r : result.runners_up()) {
+    if (answer.motions.size() == most || !(r.score > 0)) break;
+    double probability = left * r.score / sum;
+    if (result.status() != NOT_REGISTERED) {
+      const double as_good = result.confidence() * r.score / (std::max)(result.score(), r.score);
+      probability = (std::min)(probability, as_good);
+    }
+    answer.motions.push_back({to_rigid_motion(r.transformation), probability});
+  }
+  return answer;
+}
+
+template <class Kernel>
+Assembly_result<Kernel> to_assembly_result(const Assembly_outcome& outcome)
+{
+  using Result = Assembly_result<Kernel>;
+  typename Result::Parts parts;
+  parts.number_of_components = outcome.number_of_components;
+  parts.is_interrupted = outcome.is_interrupted;
+  for (std::size_t i = 0; i < outcome.poses.size(); ++i)
+    parts.scans.push_back({outcome.components[i], to_aff_transformation<Kernel>(outcome.poses[i]), outcome.reasons[i],
+                           outcome.residuals[i], rows_of(outcome.covariances[i])});
+  for (const Assembly_edge& e : outcome.edges)
+    parts.edges.push_back(
+        {e.source, e.target, e.status, e.reason, e.registration, e.confidence, e.overlap, e.residual});
+  for (const Assembled_pair& p : outcome.pairs) parts.overlaps.push_back({p.source, p.target, p.overlap, p.residual});
+  for (const Stage_record& s : outcome.stages) parts.statistics.push_back({s.name, s.count, s.seconds});
+  return Result(std::move(parts));
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief puts many scans together: finds a pose for each, from nothing but their surfaces, and says which of them do not
+belong together.
+
+Pairs that promise to overlap are registered (`register_scans()`), in rounds, until all scans are connected and each
+connection is confirmed by others; no more than six a scan. Where pairs contradict each other, what most of them say and
+the free space of all scans decide. All poses are then refined together. What cannot be connected with certainty comes
+back as components of its own.
+
+\tparam ConcurrencyTag `CGAL::Sequential_tag` (default), `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`; the
+        answer is the same, bit by bit, with any number of threads
+\tparam ScanRange a model of `RandomAccessRange` whose value type is `Scan`
+\tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+\param scans the scans, in any order; their sensors, where known, are part of them
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{candidates}
+    \cgalParamDescription{the way to propose motions of pairs, as of `register_scans()`, with its parameters}
+    \cgalParamType{a model of `CandidateGenerator`}
+    \cgalParamDefault{`Oriented_pair_candidates()`}
+  \cgalParamNEnd
+  \cgalParamNBegin{time_budget}
+    \cgalParamDescription{seconds after which the run ends}
+    \cgalParamType{`double`, above zero}
+    \cgalParamDefault{none}
+  \cgalParamNEnd
+  \cgalParamNBegin{visitor}
+    \cgalParamDescription{is told how far the run is, and may end it}
+    \cgalParamType{a model of `RegistrationVisitor`, or a `std::reference_wrapper` of one}
+    \cgalParamDefault{none}
+    \cgalParamExtra{It is called by the calling thread.}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+
+\return the poses and what they rest on. A run that is ended by its budget or its visitor returns what it has found.
+
+\throws std::invalid_argument if a parameter is out of its range, or a scan was not made for the generator
+
+The result depends on nothing but the scans and the parameters; the order of the scans matters only for the frame of
+each component, and for rounding. Complexity: some registrations a scan.
+*/
+template <class ConcurrencyTag = CGAL::Sequential_tag, class ScanRange,
+          class NamedParameters = parameters::Default_named_parameters>
+auto assemble_scans(const ScanRange& scans, const NamedParameters& np = parameters::default_values())
+{
+  using Kernel = typename std::iterator_traits<decltype(std::begin(scans))>::value_type::Kernel;
+  const auto generator = internal::candidate_generator(np, "assemble_scans");
+  internal::Run_control control(internal::visitor_parameter(np), internal::time_budget_parameter(np, "assemble_scans"));
+  std::vector<const internal::Reduced_scan*> reduced;
+  for (const auto& scan : scans) reduced.push_back(&scan.reduced());
+  const auto first = std::begin(scans);
+  const auto at = [&](std::size_t i) -> const Scan<Kernel>& {
+    return first[static_cast<typename std::iterator_traits<decltype(std::begin(scans))>::difference_type>(i)];
+  };
+  const internal::Pair_registration register_pair = [&](std::size_t i, std::size_t j, internal::Run_control& task) {
+    return internal::to_pair_answer(internal::register_scans<CGAL::Sequential_tag>(at(i), at(j), generator, task));
+  };
+  return internal::to_assembly_result<Kernel>(
+      internal::assemble_reduced_scans(reduced, register_pair, internal::execution<ConcurrencyTag>(), control));
+}
+
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_ASSEMBLE_SCANS_H

@@ -1,0 +1,258 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Author(s)     : The Crude_registration authors
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_ASSEMBLY_ASSEMBLE_REDUCED_SCANS_IMPL_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_ASSEMBLY_ASSEMBLE_REDUCED_SCANS_IMPL_H
+
+// The steps of assemble_reduced_scans.h.
+
+#include <CGAL/Crude_registration/internal/assembly/Pair_plan.h>
+#include <CGAL/Crude_registration/internal/assembly/Parts.h>
+#include <CGAL/Crude_registration/internal/assembly/Placed_scans.h>
+#include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
+#include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// The scans in an order that does not depend on that of the input.
+inline std::vector<std::size_t> canonical_order(const std::vector<const Reduced_scan*>& scans)
+{
+  std::vector<std::size_t> order(scans.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto key = [&](std::size_t i) {
+    const Reduced_scan& s = *scans[i];
+    return std::tuple(s.number_of_samples, s.fine.surfels.size(), s.coarse.surfels.size(), s.extent, s.spacing);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
+class Assembler
+{
+public:
+  Assembler(const std::vector<const Reduced_scan*>& scans, const Pair_registration& register_pair, Execution execution,
+            Run_control& control)
+      : m_scans(scans), m_register_pair(register_pair), m_execution(execution), m_control(control),
+        m_order(canonical_order(scans)), m_placed(in_order(scans, m_order))
+  {}
+
+  Assembly_outcome operator()()
+  {
+    Stage_record reducing{"reduce"}, predicting{"predict"}, registering{"register"}, joining{"join"};
+    for (const Reduced_scan* scan : m_scans) {
+      ++reducing.count;
+      reducing.seconds += scan->seconds;
+    }
+    std::optional<Pair_plan> plan;
+    {
+      const Stage_timer timer(predicting);
+      plan.emplace(m_placed);
+      predicting.count = m_scans.size() * (m_scans.size() - 1) / 2;
+    }
+    std::vector<Scan_pair> round = plan->first_round();
+    std::optional<Parts> parts;
+    parts.emplace(m_placed, m_pairs);
+    while (!round.empty()) {
+      {
+        const Stage_timer timer(registering);
+        if (!register_round(round)) break;
+      }
+      registering.count = m_pairs.size();
+      m_control.advance(0.9 * double(m_pairs.size()) / double(plan->budget() + 1));
+      const Stage_timer timer(joining);
+      ++joining.count;
+      parts.emplace(m_placed, m_pairs);
+      round = plan->next_round(*parts, agreeing_pairs(*parts));
+    }
+    Assembly_outcome outcome;
+    outcome.stages = {reducing, predicting, registering, joining};
+    conclude(*parts, outcome);
+    return outcome;
+  }
+
+private:
+  static std::vector<const Reduced_scan*> in_order(const std::vector<const Reduced_scan*>& scans,
+                                                   const std::vector<std::size_t>& order)
+  {
+    std::vector<const Reduced_scan*> result;
+    for (const std::size_t i : order) result.push_back(scans[i]);
+    return result;
+  }
+
+  // False where the run was stopped: the answers of a round that was not done to its end are left out.
+  bool register_round(const std::vector<Scan_pair>& round)
+  {
+    std::vector<Tried_pair> tried(round.size());
+    std::vector<std::exception_ptr> failures(round.size());
+    for_each_index(m_execution, round.size(), m_control, [&](std::size_t k) {
+      try {
+        const std::size_t i = m_order[round[k].first], j = m_order[round[k].second];
+        // A task's own control: it is asked by the thread that made it.
+        Run_control control([this](double) { return m_control.go_on(); }, (std::numeric_limits<double>::infinity)());
+        tried[k] = {round[k], m_register_pair(i, j, control)};
+        for (Ranked_motion& m : tried[k].answer.motions)
+          m.motion = m_scans[j]->own_from_input * m.motion * m_scans[i]->own_from_input.inverse();
+      } catch (...) {
+        failures[k] = std::current_exception();
+      }
+    });
+    for (const std::exception_ptr& failure : failures)
+      if (failure) std::rethrow_exception(failure);
+    if (m_control.is_stopped()) return false;
+    m_pairs.insert(m_pairs.end(), tried.begin(), tried.end());
+    std::sort(m_pairs.begin(), m_pairs.end(),
+              [](const Tried_pair& a, const Tried_pair& b) { return a.scans < b.scans; });
+    return true;
+  }
+
+  Rigid_motion motion_of(const Parts& parts, const Scan_pair& pair) const
+  {
+    return parts.poses()[pair.second].inverse() * parts.poses()[pair.first];
+  }
+
+  // Whether the first motion of a pair is that of the model.
+  bool agrees(const Parts& parts, const Tried_pair& pair) const
+  {
+    return parts.are_together(pair.scans.first, pair.scans.second) && !pair.answer.motions.empty() &&
+           pair.answer.status != NOT_REGISTERED &&
+           Parts::agrees(m_placed, pair.scans, pair.answer.motions.front().motion, motion_of(parts, pair.scans));
+  }
+
+  std::vector<Scan_pair> agreeing_pairs(const Parts& parts) const
+  {
+    std::vector<Scan_pair> result;
+    for (const Tried_pair& pair : m_pairs)
+      if (agrees(parts, pair)) result.push_back(pair.scans);
+    return result;
+  }
+
+  void conclude(const Parts& parts, Assembly_outcome& outcome) const
+  {
+    const std::size_t n = m_scans.size();
+    outcome.is_interrupted = m_control.is_stopped();
+    outcome.poses.resize(n);
+    outcome.components.resize(n);
+    outcome.reasons.resize(n);
+    outcome.residuals.resize(n, 0);
+    outcome.covariances.resize(n, Matrix_6::Zero());
+    // Components by their size, then by the first of their scans in the input, whose frame is that of the component.
+    std::vector<std::vector<std::size_t>> components;
+    for (const Part& part : parts.parts()) {
+      components.emplace_back();
+      for (const std::size_t i : part.scans) components.back().push_back(m_order[i]);
+      std::sort(components.back().begin(), components.back().end());
+    }
+    std::sort(components.begin(), components.end(), [](const auto& a, const auto& b) {
+      return a.size() != b.size() ? a.size() > b.size() : a.front() < b.front();
+    });
+    std::vector<std::size_t> place(n);
+    for (std::size_t i = 0; i < n; ++i) place[m_order[i]] = i;
+    outcome.number_of_components = components.size();
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      const auto part_from_input = [&](std::size_t i) { return parts.poses()[place[i]] * m_scans[i]->own_from_input; };
+      const Rigid_motion first_from_part = part_from_input(components[c].front()).inverse();
+      for (const std::size_t i : components[c]) {
+        outcome.components[i] = c;
+        outcome.poses[i] = i == components[c].front() ? Rigid_motion() : first_from_part * part_from_input(i);
+      }
+    }
+    for (const Tried_pair& pair : m_pairs) outcome.edges.push_back(edge(parts, pair));
+    std::sort(outcome.edges.begin(), outcome.edges.end(), [](const Assembly_edge& a, const Assembly_edge& b) {
+      return std::tuple(a.source, a.target) < std::tuple(b.source, b.target);
+    });
+    for (const std::vector<std::size_t>& component : components)
+      if (component.size() == 1) outcome.reasons[component.front()] = reason_alone(component.front(), outcome);
+  }
+
+  Assembly_edge edge(const Parts& parts, const Tried_pair& pair) const
+  {
+    Assembly_edge e;
+    e.source = m_order[pair.scans.first];
+    e.target = m_order[pair.scans.second];
+    if (e.source > e.target) std::swap(e.source, e.target);
+    e.registration = pair.answer.status;
+    e.reason = pair.answer.reason;
+    e.overlap = pair.answer.overlap;
+    e.residual = pair.answer.residual;
+    if (!pair.answer.motions.empty()) e.confidence = pair.answer.motions.front().probability;
+    if (pair.answer.status == NOT_REGISTERED) e.status = WITHOUT_OVERLAP;
+    else if (!parts.are_together(pair.scans.first, pair.scans.second)) {
+      e.status = NOT_CONNECTING;
+      for (const Join& join : parts.refused()) {
+        const std::size_t a = parts.part_of(pair.scans.first), b = parts.part_of(pair.scans.second);
+        if (join.first != (std::min)(a, b) || join.second != (std::max)(a, b)) continue;
+        if (join.violations > 0.1) e.reason = "one component would lie in the free space of the other";
+        else if (join.contradicting > 0) e.reason = "the pairs between the components contradict each other";
+      }
+    } else {
+      e.status = DROPPED;
+      for (std::size_t k = 0; k < pair.answer.motions.size(); ++k)
+        if (Parts::agrees(m_placed, pair.scans, pair.answer.motions[k].motion, motion_of(parts, pair.scans))) {
+          e.status = USED;
+          if (k > 0) e.reason = "decided by the other scans";
+          break;
+        }
+      if (e.status == DROPPED) e.reason = "contradicts the poses that the other pairs give";
+    }
+    return e;
+  }
+
+  static std::string reason_alone(std::size_t scan, const Assembly_outcome& outcome)
+  {
+    std::size_t tried = 0, best = 0;
+    const Assembly_edge* doubtful = nullptr;
+    for (const Assembly_edge& e : outcome.edges) {
+      if (e.source != scan && e.target != scan) continue;
+      ++tried;
+      if (e.status == NOT_CONNECTING && (!doubtful || e.confidence > doubtful->confidence)) doubtful = &e;
+      best += e.status == NOT_CONNECTING;
+    }
+    if (outcome.is_interrupted) return "interrupted before it was connected";
+    if (tried == 0) return "there is no other scan";
+    if (doubtful)
+      return "no pair is certain enough: the best of " + std::to_string(best) + " that may fit: " + doubtful->reason;
+    return "no overlap found with any of the " + std::to_string(tried) + " scans tried";
+  }
+
+  const std::vector<const Reduced_scan*>& m_scans;
+  const Pair_registration& m_register_pair;
+  const Execution m_execution;
+  Run_control& m_control;
+  const std::vector<std::size_t> m_order; // the place in the input of each in the canonical order
+  const Placed_scans m_placed;            // in the canonical order
+  std::vector<Tried_pair> m_pairs;
+};
+
+CGAL_CRUDE_REGISTRATION_INLINE Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
+                                                                       const Pair_registration& register_pair,
+                                                                       Execution execution, Run_control& control)
+{
+  return Assembler(scans, register_pair, execution, control)();
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_ASSEMBLY_ASSEMBLE_REDUCED_SCANS_IMPL_H
