@@ -12,3 +12,4 @@
 // The part assembly of the compiled core.
 
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans_impl.h>
+#include <CGAL/Crude_registration/internal/assembly/relax_poses_impl.h>

@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/internal/assembly/Parts.h>
 #include <CGAL/Crude_registration/internal/assembly/Placed_scans.h>
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
+#include <CGAL/Crude_registration/internal/assembly/relax_poses.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 
 #include <algorithm>
@@ -169,20 +170,50 @@ private:
     std::vector<std::size_t> place(n);
     for (std::size_t i = 0; i < n; ++i) place[m_order[i]] = i;
     outcome.number_of_components = components.size();
-    for (std::size_t c = 0; c < components.size(); ++c) {
-      const auto part_from_input = [&](std::size_t i) { return parts.poses()[place[i]] * m_scans[i]->own_from_input; };
-      const Rigid_motion first_from_part = part_from_input(components[c].front()).inverse();
-      for (const std::size_t i : components[c]) {
-        outcome.components[i] = c;
-        outcome.poses[i] = i == components[c].front() ? Rigid_motion() : first_from_part * part_from_input(i);
-      }
+    Stage_record relaxing{"relax"};
+    {
+      const Stage_timer timer(relaxing);
+      for (std::size_t c = 0; c < components.size(); ++c)
+        relaxing.count += place_component(components[c], c, place, parts.poses(), outcome);
     }
+    outcome.stages.push_back(relaxing);
     for (const Tried_pair& pair : m_pairs) outcome.edges.push_back(edge(parts, pair));
     std::sort(outcome.edges.begin(), outcome.edges.end(), [](const Assembly_edge& a, const Assembly_edge& b) {
       return std::tuple(a.source, a.target) < std::tuple(b.source, b.target);
     });
+    std::sort(outcome.pairs.begin(), outcome.pairs.end(), [](const Assembled_pair& a, const Assembled_pair& b) {
+      return std::tuple(a.source, a.target) < std::tuple(b.source, b.target);
+    });
     for (const std::vector<std::size_t>& component : components)
       if (component.size() == 1) outcome.reasons[component.front()] = reason_alone(component.front(), outcome);
+  }
+
+  // The refined poses of a component, in the frame of the first of its scans; the number of iterations.
+  std::size_t place_component(const std::vector<std::size_t>& component, std::size_t number,
+                              const std::vector<std::size_t>& place, const std::vector<Rigid_motion>& poses,
+                              Assembly_outcome& outcome) const
+  {
+    std::vector<std::size_t> places;
+    std::vector<Rigid_motion> initial;
+    for (const std::size_t i : component) {
+      places.push_back(place[i]);
+      initial.push_back(poses[place[i]]);
+    }
+    const Relaxation relaxed = relax_poses(m_placed, places, initial, m_execution, m_control);
+    const std::size_t first = component.front();
+    const Rigid_motion input_from_part = (relaxed.poses.front() * m_scans[first]->own_from_input).inverse();
+    const Matrix_6 to_input = adjoint(input_from_part);
+    for (std::size_t k = 0; k < component.size(); ++k) {
+      const std::size_t i = component[k];
+      outcome.components[i] = number;
+      outcome.poses[i] = i == first ? Rigid_motion() : input_from_part * relaxed.poses[k] * m_scans[i]->own_from_input;
+      outcome.residuals[i] = relaxed.residuals[k];
+      const Matrix_6 covariance = to_input * relaxed.covariances[k] * to_input.transpose();
+      outcome.covariances[i] = 0.5 * (covariance + covariance.transpose());
+    }
+    for (const Relaxed_pair& p : relaxed.pairs)
+      outcome.pairs.push_back({m_order[p.source], m_order[p.target], p.overlap, p.residual});
+    return relaxed.iterations;
   }
 
   Assembly_edge edge(const Parts& parts, const Tried_pair& pair) const
