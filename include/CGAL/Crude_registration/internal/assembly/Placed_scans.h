@@ -61,8 +61,8 @@ public:
 
   std::size_t size() const { return m_scans.size(); }
   const Reduced_scan& scan(std::size_t i) const { return *m_scans[i]; }
-  const Vector& centre(std::size_t i) const { return m_balls[i].centre; }      // of its surface, in its own frame
-  double deviation(std::size_t i) const { return m_balls[i].deviation; } // root mean square, from the centre
+  const Vector& centre(std::size_t i) const { return m_balls[i].centre; } // of its surface, in its own frame
+  double deviation(std::size_t i) const { return m_balls[i].deviation; }  // root mean square, from the centre
 
   // Two motions of scan i displace its surface by this against each other, root mean square (of a ball of its
   // deviation).

@@ -155,30 +155,33 @@ private:
   void use(Level level)
   {
     m_level = level;
-    // Some thousand probes of each scan; fewer where the pairs are very many.
-    constexpr std::size_t most_matches = 4000000;
-    m_most_probes = (std::max)(std::size_t(500), most_matches / (std::max)(m_pairs.size(), std::size_t(1)));
+    // All surfels of each scan; fewer where the pairs are very many.
+    constexpr std::size_t most_matches = 4000000, fewest_probes = 500;
+    m_most_probes = (std::max)(fewest_probes, most_matches / (std::max)(m_pairs.size(), std::size_t(1)));
   }
 
   void match(Pair& pair, const std::vector<Rigid_motion>& poses) const
   {
     const Surfel_level &source = level(pair.source), &target = level(pair.target);
-    const Nearest_surfel surface{target.surfels, target.field, double(target.spacing)};
+    // A surfel stands for its own cell only: its plane goes astray beyond, where the surface bends.
+    constexpr double aside = 0.5;
+    const Nearest_surfel surface{target.surfels, target.field, aside / Nearest_surfel::beyond * double(target.spacing)};
     const Rigid_motion &pose = poses[pair.source], &target_pose = poses[pair.target];
     const Rigid_motion motion = target_pose.inverse() * pose;
     const double reach = double(target.spacing);
     pair.matches.clear();
-    pair.probes = (std::min)(m_most_probes, source.probes.size());
+    const bool all = source.surfels.size() <= m_most_probes;
+    pair.probes = all ? source.surfels.size() : (std::min)(m_most_probes, source.probes.size());
     for (std::size_t k = 0; k < pair.probes; ++k) {
-      const Surfel& s = source.surfels[std::size_t(source.probes[k])];
+      const Surfel& s = source.surfels[all ? k : std::size_t(source.probes[k])];
       const Vector p = motion(s.position.cast<double>());
       Surface_point closest;
       if (!surface.closest(p, reach, closest)) continue;
       const Vector normal = motion.rotation * s.normal.cast<double>();
       if (!(normal.dot(closest.normal) > smallest_normal_cosine)) continue;
       const Vector n = (normal + closest.normal).normalized();
-      pair.matches.push_back({target_pose(Vector(0.5 * (p + closest.point))), target_pose.rotation * n,
-                              (closest.point - p).dot(n)});
+      pair.matches.push_back(
+          {target_pose(Vector(0.5 * (p + closest.point))), target_pose.rotation * n, (closest.point - p).dot(n)});
     }
   }
 
@@ -242,8 +245,7 @@ private:
     const auto add = [&](std::size_t i, std::size_t j, const Matrix_6& block) {
       if (i == 0 || j == 0) return;
       for (int r = 0; r < 6; ++r)
-        for (int c = 0; c < 6; ++c)
-          entries.emplace_back(int(6 * (i - 1)) + r, int(6 * (j - 1)) + c, block(r, c));
+        for (int c = 0; c < 6; ++c) entries.emplace_back(int(6 * (i - 1)) + r, int(6 * (j - 1)) + c, block(r, c));
     };
     for (const Pair& pair : m_pairs) {
       const Matrix_6 block = pair.equations.left.selfadjointView<Eigen::Lower>();

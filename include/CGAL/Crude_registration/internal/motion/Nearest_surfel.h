@@ -29,7 +29,9 @@ struct Nearest_surfel
 {
   const std::vector<Surfel>& surfels;
   const Surfel_field& field;
-  double spacing; // a surfel stands for the surface as far as this, a little more
+  double spacing; // a surfel stands for the surface as far as `beyond` times this
+
+  static constexpr double beyond = 1.2;
 
   bool closest(const Vector& query, double reach, Surface_point& answer) const
   {
@@ -39,7 +41,7 @@ struct Nearest_surfel
     const Vector n = s.normal.cast<double>(), d = query - s.position.cast<double>();
     const double height = n.dot(d);
     const double aside = (d - height * n).norm();
-    if (std::abs(height) > reach || aside > 1.2 * spacing) return false;
+    if (std::abs(height) > reach || aside > beyond * spacing) return false;
     answer = {query - height * n, n, false};
     return true;
   }
