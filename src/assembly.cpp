@@ -13,3 +13,4 @@
 
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans_impl.h>
 #include <CGAL/Crude_registration/internal/assembly/relax_poses_impl.h>
+#include <CGAL/Crude_registration/internal/assembly/fuse_scans_impl.h>

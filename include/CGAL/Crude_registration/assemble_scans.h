@@ -144,8 +144,17 @@ auto assemble_scans(const ScanRange& scans, const NamedParameters& np = paramete
   const internal::Pair_registration register_pair = [&](std::size_t i, std::size_t j, internal::Run_control& task) {
     return internal::to_pair_answer(internal::register_scans<CGAL::Sequential_tag>(at(i), at(j), generator, task));
   };
-  return internal::to_assembly_result<Kernel>(
-      internal::assemble_reduced_scans(reduced, register_pair, internal::execution<ConcurrencyTag>(), control));
+  // What is fused of many scans is no Scan: it is registered by the default, whatever the generator.
+  const internal::Surface_registration register_surfaces =
+      [](const internal::Reduced_scan& source, const internal::Reduced_scan& target, internal::Run_control& task) {
+        const auto make_candidates = [](const internal::Reduced_scan& a, const internal::Reduced_scan& b) {
+          return Oriented_pair_candidates().candidates(a, b, internal::Execution::SEQUENTIAL);
+        };
+        return internal::to_pair_answer(internal::to_result<Kernel>(
+            internal::register_reduced_scans(source, target, make_candidates, internal::Execution::SEQUENTIAL, task)));
+      };
+  return internal::to_assembly_result<Kernel>(internal::assemble_reduced_scans(
+      reduced, register_pair, register_surfaces, internal::execution<ConcurrencyTag>(), control));
 }
 
 } // namespace Crude_registration

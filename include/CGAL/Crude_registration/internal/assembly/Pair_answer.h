@@ -59,6 +59,7 @@ struct Tried_pair
 {
   Scan_pair scans;
   Pair_answer answer;
+  bool is_fused = false; // not the scans themselves were registered but surfaces fused of many, they among them
 };
 
 } // namespace internal

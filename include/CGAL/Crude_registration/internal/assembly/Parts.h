@@ -63,15 +63,15 @@ constexpr double trusted_join = 0.9;
 class Parts
 {
 public:
-  Parts(const Placed_scans& placed, const std::vector<Tried_pair>& pairs)
-      : m_placed(placed), m_pairs(pairs), m_poses(placed.size()), m_part_of(placed.size())
+  Parts(const Placed_scans& placed, std::vector<Tried_pair> pairs)
+      : m_placed(placed), m_pairs(std::move(pairs)), m_poses(placed.size()), m_part_of(placed.size())
   {
     for (std::size_t i = 0; i < placed.size(); ++i) {
       m_parts.push_back({{i}});
       m_part_of[i] = i;
     }
-    for (std::size_t q = 0; q < pairs.size(); ++q)
-      if (!pairs[q].answer.motions.empty()) m_between[{pairs[q].scans.first, pairs[q].scans.second}].push_back(q);
+    for (std::size_t q = 0; q < m_pairs.size(); ++q)
+      if (!m_pairs[q].answer.motions.empty()) m_between[{m_pairs[q].scans.first, m_pairs[q].scans.second}].push_back(q);
     for (const auto& entry : m_between) add_join(entry.first.first, entry.first.second);
     while (join_best()) {
     }
@@ -274,7 +274,7 @@ private:
   }
 
   const Placed_scans& m_placed;
-  const std::vector<Tried_pair>& m_pairs;
+  const std::vector<Tried_pair> m_pairs;
   std::vector<Rigid_motion> m_poses;
   std::vector<std::size_t> m_part_of;
   std::vector<Part> m_parts;

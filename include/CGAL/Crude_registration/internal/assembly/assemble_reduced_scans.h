@@ -36,6 +36,10 @@ namespace internal {
 // Registers scans, by their places in the input, in the frames of the input. Called by several threads at a time.
 using Pair_registration = std::function<Pair_answer(std::size_t source, std::size_t target, Run_control& control)>;
 
+// Registers surfaces in their own frames: what is fused of many scans. May be empty.
+using Surface_registration =
+    std::function<Pair_answer(const Reduced_scan& source, const Reduced_scan& target, Run_control& control)>;
+
 struct Assembly_edge
 {
   std::size_t source = 0, target = 0;
@@ -68,7 +72,8 @@ struct Assembly_outcome
 };
 
 Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
-                                        const Pair_registration& register_pair, Execution execution,
+                                        const Pair_registration& register_pair,
+                                        const Surface_registration& register_surfaces, Execution execution,
                                         Run_control& control);
 
 } // namespace internal

@@ -18,15 +18,19 @@
 #include <CGAL/Crude_registration/internal/assembly/Parts.h>
 #include <CGAL/Crude_registration/internal/assembly/Placed_scans.h>
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
+#include <CGAL/Crude_registration/internal/assembly/fuse_scans.h>
+#include <CGAL/Crude_registration/internal/assembly/loop_evidence.h>
 #include <CGAL/Crude_registration/internal/assembly/relax_poses.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -52,10 +56,10 @@ inline std::vector<std::size_t> canonical_order(const std::vector<const Reduced_
 class Assembler
 {
 public:
-  Assembler(const std::vector<const Reduced_scan*>& scans, const Pair_registration& register_pair, Execution execution,
-            Run_control& control)
-      : m_scans(scans), m_register_pair(register_pair), m_execution(execution), m_control(control),
-        m_order(canonical_order(scans)), m_placed(in_order(scans, m_order))
+  Assembler(const std::vector<const Reduced_scan*>& scans, const Pair_registration& register_pair,
+            const Surface_registration& register_surfaces, Execution execution, Run_control& control)
+      : m_scans(scans), m_register_pair(register_pair), m_register_surfaces(register_surfaces), m_execution(execution),
+        m_control(control), m_order(canonical_order(scans)), m_placed(in_order(scans, m_order))
   {}
 
   Assembly_outcome operator()()
@@ -73,7 +77,7 @@ public:
     }
     std::vector<Scan_pair> round = plan->first_round();
     std::optional<Parts> parts;
-    parts.emplace(m_placed, m_pairs);
+    parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs));
     while (!round.empty()) {
       {
         const Stage_timer timer(registering);
@@ -83,11 +87,21 @@ public:
       m_control.advance(0.9 * double(m_pairs.size()) / double(plan->budget() + 1));
       const Stage_timer timer(joining);
       ++joining.count;
-      parts.emplace(m_placed, m_pairs);
+      parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs));
       round = plan->next_round(*parts, agreeing_pairs(*parts));
     }
+    Stage_record fusing{"fuse"};
+    {
+      const Stage_timer timer(fusing);
+      while (const std::size_t tried = register_fused(*parts)) {
+        fusing.count += tried;
+        const std::size_t before = parts->parts().size();
+        parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs));
+        if (parts->parts().size() >= before) break;
+      }
+    }
     Assembly_outcome outcome;
-    outcome.stages = {reducing, predicting, registering, joining};
+    outcome.stages = {reducing, predicting, registering, joining, fusing};
     conclude(*parts, outcome);
     return outcome;
   }
@@ -105,26 +119,107 @@ private:
   bool register_round(const std::vector<Scan_pair>& round)
   {
     std::vector<Tried_pair> tried(round.size());
-    std::vector<std::exception_ptr> failures(round.size());
-    for_each_index(m_execution, round.size(), m_control, [&](std::size_t k) {
+    const bool is_done = run(round.size(), [&](std::size_t k, Run_control& control) {
+      const std::size_t i = m_order[round[k].first], j = m_order[round[k].second];
+      tried[k] = {round[k], m_register_pair(i, j, control)};
+      for (Ranked_motion& m : tried[k].answer.motions)
+        m.motion = m_scans[j]->own_from_input * m.motion * m_scans[i]->own_from_input.inverse();
+    });
+    if (is_done) add(tried);
+    return is_done;
+  }
+
+  // f(k, control) for the tasks 0 .. n-1; of several failures the first is thrown. False where the run was stopped.
+  template <class Function>
+  bool run(std::size_t n, const Function& f)
+  {
+    std::vector<std::exception_ptr> failures(n);
+    for_each_index(m_execution, n, m_control, [&](std::size_t k) {
       try {
-        const std::size_t i = m_order[round[k].first], j = m_order[round[k].second];
         // A task's own control: it is asked by the thread that made it.
         Run_control control([this](double) { return m_control.go_on(); }, (std::numeric_limits<double>::infinity)());
-        tried[k] = {round[k], m_register_pair(i, j, control)};
-        for (Ranked_motion& m : tried[k].answer.motions)
-          m.motion = m_scans[j]->own_from_input * m.motion * m_scans[i]->own_from_input.inverse();
+        f(k, control);
       } catch (...) {
         failures[k] = std::current_exception();
       }
     });
     for (const std::exception_ptr& failure : failures)
       if (failure) std::rethrow_exception(failure);
-    if (m_control.is_stopped()) return false;
+    return !m_control.is_stopped();
+  }
+
+  // In an order that does not depend on when they came.
+  void add(const std::vector<Tried_pair>& tried)
+  {
     m_pairs.insert(m_pairs.end(), tried.begin(), tried.end());
-    std::sort(m_pairs.begin(), m_pairs.end(),
-              [](const Tried_pair& a, const Tried_pair& b) { return a.scans < b.scans; });
-    return true;
+    std::stable_sort(m_pairs.begin(), m_pairs.end(),
+                     [](const Tried_pair& a, const Tried_pair& b) { return a.scans < b.scans; });
+  }
+
+  // Registers what is still apart with the surfaces that the largest parts have together; the number of tries.
+  std::size_t register_fused(const Parts& parts)
+  {
+    if (!m_register_surfaces || m_control.is_stopped()) return 0;
+    std::vector<Part> all = parts.parts();
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Part& a, const Part& b) { return a.scans.size() > b.scans.size(); });
+    constexpr std::size_t largest = 3;                      // so many parts are large ones
+    std::vector<std::pair<std::size_t, std::size_t>> tasks; // indices of parts: what is registered with what
+    for (std::size_t q = 0; q < (std::min)(largest, all.size()); ++q)
+      for (std::size_t p = q + 1; p < all.size(); ++p)
+        if (all[q].scans.size() > 1 && m_fused.insert({all[p].scans, all[q].scans}).second) tasks.emplace_back(p, q);
+    std::vector<Reduced_scan> surfaces(all.size());
+    std::vector<std::uint8_t> is_wanted(all.size(), 0);
+    for (const auto& t : tasks) is_wanted[t.first] = is_wanted[t.second] = 1;
+    bool is_done = run(all.size(), [&](std::size_t p, Run_control& control) {
+      if (is_wanted[p] == 0 || all[p].scans.size() == 1) return;
+      try {
+        surfaces[p] = fuse_scans(m_placed, all[p].scans, parts.poses(), control);
+      } catch (const Run_control::Stopped&) {
+      }
+    });
+    std::vector<Tried_pair> tried(tasks.size());
+    const auto surface = [&](std::size_t p) -> const Reduced_scan& {
+      return all[p].scans.size() == 1 ? m_placed.scan(all[p].scans.front()) : surfaces[p];
+    };
+    is_done = is_done && run(tasks.size(), [&](std::size_t t, Run_control& control) {
+                tried[t] = fused_pair(parts, all[tasks[t].first], all[tasks[t].second],
+                                      m_register_surfaces(surface(tasks[t].first), surface(tasks[t].second), control));
+              });
+    if (!is_done) return 0;
+    add(tried);
+    return tasks.size();
+  }
+
+  // What the registration of two parts says, as that of the two of their scans that meet most. The frame of a scan that
+  // is alone is its own.
+  Tried_pair fused_pair(const Parts& parts, const Part& part, const Part& other, Pair_answer answer) const
+  {
+    Tried_pair pair{{part.scans.front(), other.scans.front()}, std::move(answer), true};
+    // The judgement of a pair knows no surface of this size, around which more fits by chance: it is not enough alone;
+    // the pair of two scans that has the same motion among its own makes it so.
+    constexpr double most_certain = 0.85;
+    double sum = 0;
+    for (const Ranked_motion& m : pair.answer.motions) sum += m.probability;
+    if (sum > most_certain)
+      for (Ranked_motion& m : pair.answer.motions) m.probability *= most_certain / sum;
+    if (!pair.answer.motions.empty()) {
+      const Rigid_motion motion = pair.answer.motions.front().motion;
+      double largest = -1;
+      for (const std::size_t i : part.scans)
+        for (const std::size_t j : other.scans) {
+          const double overlap = m_placed.meeting(i, j, parts.poses()[j].inverse() * motion * parts.poses()[i]).overlap;
+          if (overlap > largest) pair.scans = {i, j};
+          largest = (std::max)(largest, overlap);
+        }
+      for (Ranked_motion& m : pair.answer.motions)
+        m.motion = parts.poses()[pair.scans.second].inverse() * m.motion * parts.poses()[pair.scans.first];
+    }
+    if (pair.scans.first > pair.scans.second) {
+      std::swap(pair.scans.first, pair.scans.second);
+      for (Ranked_motion& m : pair.answer.motions) m.motion = m.motion.inverse();
+    }
+    return pair;
   }
 
   Rigid_motion motion_of(const Parts& parts, const Scan_pair& pair) const
@@ -230,6 +325,8 @@ private:
     if (pair.answer.status == NOT_REGISTERED) e.status = WITHOUT_OVERLAP;
     else if (!parts.are_together(pair.scans.first, pair.scans.second)) {
       e.status = NOT_CONNECTING;
+      if (e.reason.empty())
+        e.reason = pair.is_fused ? "found by the surface of a component alone" : "not certain enough alone";
       for (const Join& join : parts.refused()) {
         const std::size_t a = parts.part_of(pair.scans.first), b = parts.part_of(pair.scans.second);
         if (join.first != (std::min)(a, b) || join.second != (std::max)(a, b)) continue;
@@ -242,6 +339,7 @@ private:
         if (Parts::agrees(m_placed, pair.scans, pair.answer.motions[k].motion, motion_of(parts, pair.scans))) {
           e.status = USED;
           if (k > 0) e.reason = "decided by the other scans";
+          else if (pair.is_fused) e.reason = "by the surface that its component has together";
           break;
         }
       if (e.status == DROPPED) e.reason = "contradicts the poses that the other pairs give";
@@ -268,18 +366,21 @@ private:
 
   const std::vector<const Reduced_scan*>& m_scans;
   const Pair_registration& m_register_pair;
+  const Surface_registration& m_register_surfaces;
   const Execution m_execution;
   Run_control& m_control;
   const std::vector<std::size_t> m_order; // the place in the input of each in the canonical order
   const Placed_scans m_placed;            // in the canonical order
   std::vector<Tried_pair> m_pairs;
+  std::set<std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> m_fused; // parts that were tried
 };
 
 CGAL_CRUDE_REGISTRATION_INLINE Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
                                                                        const Pair_registration& register_pair,
+                                                                       const Surface_registration& register_surfaces,
                                                                        Execution execution, Run_control& control)
 {
-  return Assembler(scans, register_pair, execution, control)();
+  return Assembler(scans, register_pair, register_surfaces, execution, control)();
 }
 
 } // namespace internal
