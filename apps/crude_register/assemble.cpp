@@ -7,6 +7,7 @@
 
 // assemble: puts many scans together.
 
+#include "assembly_files.h"
 #include "commands.h"
 #include "files.h"
 #include "json.h"
@@ -30,7 +31,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -74,59 +74,6 @@ std::vector<Scan> prepared(const std::vector<std::string>& files, const std::opt
     scans.push_back(std::move(*input.scan));
   }
   return scans;
-}
-
-// What scans are called in the output: their files without folders where that tells them apart.
-std::vector<std::string> names_of(const std::vector<std::string>& files)
-{
-  std::vector<std::string> names;
-  for (const std::string& file : files) names.push_back(base_name(file));
-  const std::set<std::string> distinct(names.begin(), names.end());
-  return distinct.size() == names.size() ? names : files;
-}
-
-// A line a scan, its name and the rows of its 3 x 4 matrix; a comment before each component.
-void write_poses(std::ostream& out, const Result& result, const std::vector<std::string>& names)
-{
-  for (std::size_t c = 0; c < result.number_of_components(); ++c) {
-    out << "# component " << c << '\n';
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (result.component(i) != c) continue;
-      out << names[i];
-      write_rows(out, result.pose(i), " ", "");
-      out << '\n';
-    }
-  }
-}
-
-// The pairs that were tried, as GraphViz draws them: what is used by lines, what was dropped or not believed by dashes.
-void write_graph(std::ostream& out, const Result& result, const std::vector<std::string>& names)
-{
-  const auto quoted = [](const std::string& name) {
-    std::string text = "\"";
-    for (const char c : name) {
-      if (c == '"' || c == '\\') text += '\\';
-      text += c;
-    }
-    return text + '"';
-  };
-  out << "graph assembly {\n";
-  for (std::size_t c = 0; c < result.number_of_components(); ++c) {
-    out << "  subgraph cluster_" << c << " {\n";
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (result.component(i) == c) out << "    " << quoted(names[i]) << ";\n";
-    out << "  }\n";
-  }
-  for (const auto& e : result.edges()) {
-    if (e.status == CR::WITHOUT_OVERLAP) continue;
-    std::ostringstream label;
-    label.imbue(std::locale::classic());
-    label << std::setprecision(2) << e.overlap;
-    out << "  " << quoted(names[e.source]) << " -- " << quoted(names[e.target]) << " [label=\"" << label.str() << '"';
-    if (e.status != CR::USED) out << ", style=dashed, color=" << (e.status == CR::DROPPED ? "red" : "gray");
-    out << "];\n";
-  }
-  out << "}\n";
 }
 
 template <class Value>
@@ -202,7 +149,12 @@ int run_assemble(const std::vector<std::string>& arguments)
   auto add = options.add_options();
   add("poses", po::value<std::string>(),
       "file for the poses: a line a scan, its name and the rows of its 3 x 4 matrix, which maps it into the frame of "
-      "the first scan of its component; a line '# component' before each component");
+      "the first scan of its component; a line '# component' before each component. A name that ends in .conf "
+      "(Stanford) or .aln (MeshLab): a file of that form, of the largest component");
+  add("output", po::value<std::string>(),
+      "file (PLY) for the points of the largest component in one frame, each with the number of its scan and its "
+      "distance from the other ones, -1 where they are not near");
+  add("table", po::value<std::string>(), "file for the overlaps and the residuals of all pairs, as text");
   add("viewpoint", po::value<std::string>(),
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
   add("graph", po::value<std::string>(), "file for the graph of the pairs, for GraphViz");
@@ -237,10 +189,12 @@ int run_assemble(const std::vector<std::string>& arguments)
   const Result result = CR::assemble_scans<CGAL::Parallel_if_available_tag>(
       scans, CR::parameters::time_budget((std::max)(shortest, time_budget - preparation)));
 
-  if (const auto file = value_of<std::string>(map, "poses"))
-    CR::write_file(*file, [&](std::ostream& out) { write_poses(out, result, names); });
+  if (const auto file = value_of<std::string>(map, "poses")) write_poses(*file, result, names);
   if (const auto file = value_of<std::string>(map, "graph"))
     CR::write_file(*file, [&](std::ostream& out) { write_graph(out, result, names); });
+  if (const auto file = value_of<std::string>(map, "table"))
+    CR::write_file(*file, [&](std::ostream& out) { write_tables(out, result, names); });
+  if (const auto file = value_of<std::string>(map, "output")) write_points(*file, result, scans, files);
   const bool with_times = map.count("times") > 0;
   if (map.count("json") > 0) std::cout << to_text(to_json(result, files, with_times)) << '\n';
   else print_text(result, names);

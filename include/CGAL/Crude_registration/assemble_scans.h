@@ -17,6 +17,7 @@
 #include <CGAL/Crude_registration/Assembly_result.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
+#include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
 #include <CGAL/Crude_registration/internal/motion/Refinement.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 #include <CGAL/Crude_registration/register_scans.h>
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -80,6 +82,33 @@ Assembly_result<Kernel> to_assembly_result(const Assembly_outcome& outcome)
   for (const Stage_record& s : outcome.stages) parts.statistics.push_back({s.name, s.count, s.seconds});
   return Result(std::move(parts));
 }
+
+// The points of one scan against the surfaces of others, in a frame of the assembly.
+class Distances_to_scans
+{
+public:
+  void add(const Reduced_scan& scan, const Rigid_motion& model_from_input)
+  {
+    m_scans.push_back({&scan, scan.own_from_input * model_from_input.inverse()});
+  }
+
+  // The least distance along a normal; infinite where no surface is near.
+  double operator()(const Vector& p) const
+  {
+    double least = (std::numeric_limits<double>::infinity)();
+    for (const auto& [scan, own_from_model] : m_scans) {
+      const Nearest_surfel surface{scan->fine.surfels, scan->fine.field, double(scan->fine.spacing)};
+      const Vector q = own_from_model(p);
+      Surface_point closest;
+      if (surface.closest(q, double(scan->fine.spacing), closest))
+        least = (std::min)(least, (closest.point - q).norm());
+    }
+    return least;
+  }
+
+private:
+  std::vector<std::pair<const Reduced_scan*, Rigid_motion>> m_scans;
+};
 
 } // namespace internal
 
@@ -155,6 +184,39 @@ auto assemble_scans(const ScanRange& scans, const NamedParameters& np = paramete
       };
   return internal::to_assembly_result<Kernel>(internal::assemble_reduced_scans(
       reduced, register_pair, register_surfaces, internal::execution<ConcurrencyTag>(), control));
+}
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief measures how far points of one scan are from the other scans of its component.
+
+\tparam ScanRange a model of `RandomAccessRange` whose value type is `Scan`
+\tparam PointRange a model of `Range` whose value type is a `Point_3`
+
+\param scans what was assembled
+\param result the answer of `assemble_scans()`
+\param scan the place of a scan among them
+\param points points in the frame of that scan's input
+
+\return for each point the distance to the nearest of the other scans' surfaces, along its normal; infinite where there
+         is none near
+*/
+template <class ScanRange, class Kernel, class PointRange>
+std::vector<double> distances_to_other_scans(const ScanRange& scans, const Assembly_result<Kernel>& result,
+                                             std::size_t scan, const PointRange& points)
+{
+  internal::Distances_to_scans distance;
+  std::size_t i = 0;
+  for (const auto& other : scans) {
+    if (i != scan && result.component(i) == result.component(scan))
+      distance.add(other.reduced(), internal::to_rigid_motion(result.pose(i)));
+    ++i;
+  }
+  const internal::Rigid_motion pose = internal::to_rigid_motion(result.pose(scan));
+  std::vector<double> distances;
+  for (const auto& p : points) distances.push_back(distance(pose(internal::to_vector(p))));
+  return distances;
 }
 
 } // namespace Crude_registration

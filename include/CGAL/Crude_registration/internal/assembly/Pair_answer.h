@@ -31,6 +31,7 @@ struct Ranked_motion
 {
   Rigid_motion motion; // to the second scan of the pair from the first
   double probability = 0;
+  bool is_registered = false; // the pair alone is certain of it
 };
 
 struct Pair_answer

@@ -45,8 +45,18 @@ struct Join
   double probability = 0;            // that it is right
   double overlap = 0;                // of the best pair that says so
   std::size_t agreeing = 0;          // pairs that say so
+  std::size_t certain = 0;           // those of them that are certain alone
   std::size_t contradicting = 0;     // pairs that were registered otherwise
   double violations = 0;             // the largest share of a scan in the free space of the other part
+};
+
+// What is believed: only what a pair says that is certain alone, or also what several say that are not. Several such
+// pairs may well agree in what is wrong, where a body has parts that look alike: scans that see the same of it are
+// misled together.
+enum class Trust
+{
+  CERTAIN_PAIRS,
+  ALL_PAIRS
 };
 
 // The probability from which on parts are joined.
@@ -63,8 +73,8 @@ constexpr double trusted_join = 0.9;
 class Parts
 {
 public:
-  Parts(const Placed_scans& placed, std::vector<Tried_pair> pairs)
-      : m_placed(placed), m_pairs(std::move(pairs)), m_poses(placed.size()), m_part_of(placed.size())
+  Parts(const Placed_scans& placed, std::vector<Tried_pair> pairs, Trust trust)
+      : m_placed(placed), m_pairs(std::move(pairs)), m_trust(trust), m_poses(placed.size()), m_part_of(placed.size())
   {
     for (std::size_t i = 0; i < placed.size(); ++i) {
       m_parts.push_back({{i}});
@@ -147,17 +157,22 @@ private:
   double vote(const std::vector<std::size_t>& pairs, Join& join) const
   {
     double likelihood = chance;
-    join.agreeing = join.contradicting = 0;
+    join.agreeing = join.certain = join.contradicting = 0;
     join.overlap = 0;
     for (const std::size_t q : pairs) {
       const Tried_pair& pair = m_pairs[q];
       const Rigid_motion motion = of_pair(pair, join.motion, join.first);
       double agreeing = 0;
+      bool is_certain = false;
       for (const Ranked_motion& m : pair.answer.motions)
-        if (probability(m) > agreeing && agrees(m_placed, pair.scans, m.motion, motion)) agreeing = probability(m);
+        if (probability(m) > agreeing && agrees(m_placed, pair.scans, m.motion, motion)) {
+          agreeing = probability(m);
+          is_certain = m.is_registered;
+        }
       if (agreeing > chance) {
         likelihood *= agreeing / chance;
         ++join.agreeing;
+        join.certain += is_certain;
         join.overlap = (std::max)(join.overlap, pair.answer.overlap);
       } else {
         likelihood *= rest(pair.answer);
@@ -238,7 +253,8 @@ private:
     const auto merit = [](const Join& j) { return j.probability * (0.1 + j.overlap); };
     auto best = m_joins.end();
     for (auto j = m_joins.begin(); j != m_joins.end(); ++j)
-      if (j->second.probability >= trusted_join && (best == m_joins.end() || merit(j->second) > merit(best->second)))
+      if (j->second.probability >= trusted_join && (m_trust == Trust::ALL_PAIRS || j->second.certain > 0) &&
+          (best == m_joins.end() || merit(j->second) > merit(best->second)))
         best = j;
     if (best == m_joins.end()) return false;
     const Join join = best->second;
@@ -275,6 +291,7 @@ private:
 
   const Placed_scans& m_placed;
   const std::vector<Tried_pair> m_pairs;
+  const Trust m_trust;
   std::vector<Rigid_motion> m_poses;
   std::vector<std::size_t> m_part_of;
   std::vector<Part> m_parts;

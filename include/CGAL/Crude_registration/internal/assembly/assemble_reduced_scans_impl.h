@@ -64,7 +64,7 @@ public:
 
   Assembly_outcome operator()()
   {
-    Stage_record reducing{"reduce"}, predicting{"predict"}, registering{"register"}, joining{"join"};
+    Stage_record reducing{"reduce"}, predicting{"predict"}, registering{"register"}, joining{"join"}, fusing{"fuse"};
     for (const Reduced_scan* scan : m_scans) {
       ++reducing.count;
       reducing.seconds += scan->seconds;
@@ -75,30 +75,37 @@ public:
       plan.emplace(m_placed);
       predicting.count = m_scans.size() * (m_scans.size() - 1) / 2;
     }
-    std::vector<Scan_pair> round = plan->first_round();
+    // First what pairs say that are certain alone, as long as there are others to try; then what several say together;
+    // then what the parts say that have come of it.
     std::optional<Parts> parts;
-    parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs));
-    while (!round.empty()) {
-      {
+    const auto join = [&](Trust trust) {
+      const Stage_timer timer(joining);
+      ++joining.count;
+      parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs), trust);
+    };
+    Trust trust = Trust::CERTAIN_PAIRS;
+    join(trust);
+    std::vector<Scan_pair> round = plan->first_round();
+    for (;;) {
+      if (!round.empty()) {
         const Stage_timer timer(registering);
         if (!register_round(round)) break;
       }
       registering.count = m_pairs.size();
       m_control.advance(0.9 * double(m_pairs.size()) / double(plan->budget() + 1));
-      const Stage_timer timer(joining);
-      ++joining.count;
-      parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs));
-      round = plan->next_round(*parts, agreeing_pairs(*parts));
-    }
-    Stage_record fusing{"fuse"};
-    {
-      const Stage_timer timer(fusing);
-      while (const std::size_t tried = register_fused(*parts)) {
+      if (round.empty() && trust == Trust::CERTAIN_PAIRS) {
+        if (parts->parts().size() <= 1) break;
+        trust = Trust::ALL_PAIRS;
+      } else if (round.empty()) {
+        const Stage_timer timer(fusing);
+        const std::size_t before = parts->parts().size(), tried = register_fused(*parts);
         fusing.count += tried;
-        const std::size_t before = parts->parts().size();
-        parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs));
+        if (tried == 0) break;
+        join(trust);
         if (parts->parts().size() >= before) break;
       }
+      join(trust);
+      round = plan->next_round(*parts, agreeing_pairs(*parts));
     }
     Assembly_outcome outcome;
     outcome.stages = {reducing, predicting, registering, joining, fusing};
@@ -125,7 +132,7 @@ private:
       for (Ranked_motion& m : tried[k].answer.motions)
         m.motion = m_scans[j]->own_from_input * m.motion * m_scans[i]->own_from_input.inverse();
     });
-    if (is_done) add(tried);
+    if (is_done) add(std::move(tried));
     return is_done;
   }
 
@@ -149,8 +156,10 @@ private:
   }
 
   // In an order that does not depend on when they came.
-  void add(const std::vector<Tried_pair>& tried)
+  void add(std::vector<Tried_pair> tried)
   {
+    for (Tried_pair& pair : tried)
+      if (pair.answer.status == REGISTERED && !pair.is_fused) pair.answer.motions.front().is_registered = true;
     m_pairs.insert(m_pairs.end(), tried.begin(), tried.end());
     std::stable_sort(m_pairs.begin(), m_pairs.end(),
                      [](const Tried_pair& a, const Tried_pair& b) { return a.scans < b.scans; });
@@ -187,7 +196,7 @@ private:
                                       m_register_surfaces(surface(tasks[t].first), surface(tasks[t].second), control));
               });
     if (!is_done) return 0;
-    add(tried);
+    add(std::move(tried));
     return tasks.size();
   }
 

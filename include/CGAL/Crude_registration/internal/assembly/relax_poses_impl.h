@@ -47,7 +47,7 @@ public:
     choose_pairs(initial);
     find_scale(initial);
     use(FINE);
-    for (Pair& pair : m_pairs) match(pair, initial);
+    match_all(initial);
     find_sigmas();
     for (Pair& pair : m_pairs) pair.fixed_sigma = pair.sigma;
     result.objective = result.initial_objective = objective(initial);
@@ -83,6 +83,8 @@ private:
   // As in the refinement of a pair.
   static constexpr double biweight_reach = 4.685, smallest_sigma = 1e-3, smallest_normal_cosine = 0.70710678118654752;
   static constexpr double tolerance = 1e-2; // of a sampling distance
+  // A surfel's plane goes astray beyond its cell, where the surface bends; to tell an overlap there have to be no gaps.
+  static constexpr double own_cell = 0.5, without_gaps = Nearest_surfel::beyond;
 
   struct Match
   {
@@ -163,9 +165,8 @@ private:
   void match(Pair& pair, const std::vector<Rigid_motion>& poses) const
   {
     const Surfel_level &source = level(pair.source), &target = level(pair.target);
-    // A surfel stands for its own cell only: its plane goes astray beyond, where the surface bends.
-    constexpr double aside = 0.5;
-    const Nearest_surfel surface{target.surfels, target.field, aside / Nearest_surfel::beyond * double(target.spacing)};
+    const Nearest_surfel surface{target.surfels, target.field,
+                                 m_aside / Nearest_surfel::beyond * double(target.spacing)};
     const Rigid_motion &pose = poses[pair.source], &target_pose = poses[pair.target];
     const Rigid_motion motion = target_pose.inverse() * pose;
     const double reach = double(target.spacing);
@@ -183,6 +184,11 @@ private:
       pair.matches.push_back(
           {target_pose(Vector(0.5 * (p + closest.point))), target_pose.rotation * n, (closest.point - p).dot(n)});
     }
+  }
+
+  void match_all(const std::vector<Rigid_motion>& poses)
+  {
+    for_each_index(m_execution, m_pairs.size(), to_the_end(), [&](std::size_t q) { match(m_pairs[q], poses); });
   }
 
   double spacing(const Pair& pair) const { return (std::max)(scan(pair.source).spacing, scan(pair.target).spacing); }
@@ -302,8 +308,9 @@ private:
     result.covariances.assign(n, Matrix_6::Zero());
     result.residuals.assign(n, 0);
     std::vector<double> squares(n, 0), counts(n, 0);
-    for (Pair& pair : m_pairs) {
-      match(pair, result.poses);
+    m_aside = without_gaps;
+    match_all(result.poses);
+    for (const Pair& pair : m_pairs) {
       // As far as the refinement of a pair counts.
       double sum = 0, count = 0;
       const double reach = 2 * spacing(pair);
@@ -324,6 +331,8 @@ private:
     for (std::size_t k = 0; k < n; ++k)
       if (counts[k] > 0) result.residuals[k] = std::sqrt(squares[k] / counts[k]);
     if (n < 2) return;
+    m_aside = own_cell;
+    match_all(result.poses);
     find_sigmas();
     for (Pair& pair : m_pairs) accumulate(pair);
     Eigen::VectorXd right;
@@ -356,6 +365,7 @@ private:
   std::size_t m_most_probes = 0;
   Vector m_centre = Vector::Zero();
   double m_radius = 1;
+  double m_aside = own_cell; // how far a surfel stands for the surface, in spacings
 };
 
 CGAL_CRUDE_REGISTRATION_INLINE Relaxation relax_poses(const Placed_scans& placed, const std::vector<std::size_t>& scans,
