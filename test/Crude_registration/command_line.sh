@@ -54,7 +54,7 @@ holds()
 }
 
 # Help.
-for command in "" register info simulate; do
+for command in "" register assemble info simulate; do
   expect 0 $command --help
   says usage:
 done
@@ -166,6 +166,33 @@ expect 3 register scans/scan_0.ply other/scan_0.ply --output nothing
 says "status:     not_registered"
 says "reason:"
 [ -e nothing ] && fail "something is written although the scans are not registered"
+
+# Many scans: four of one body and one of another.
+expect 0 simulate --output many --samples 150 --scans 4
+cp other/scan_0.ply many/other.ply
+many="many/scan_2.ply many/other.ply many/scan_0.ply many/scan_3.ply many/scan_1.ply"
+expect 0 assemble $many --poses poses.txt --graph graph.dot --table table.txt --output model.ply
+says "component 1"
+says "other.ply, alone: "
+[ "$(grep -c '^# component' poses.txt)" -eq 2 ] || fail "not two components: $(cat poses.txt)"
+sed -n 2p poses.txt | grep -q '^scan_2.ply 1 0 0 0 0 1 0 0 0 0 1 0$' || fail "the first scan does not fix the frame"
+[ "$(tail -n 1 poses.txt | cut -d ' ' -f 1)" = other.ply ] || fail "the foreign scan is not last: $(cat poses.txt)"
+grep -q '"scan_0.ply" -- "scan_1.ply"\|"scan_1.ply" -- "scan_0.ply"' graph.dot || fail "no edge in $(cat graph.dot)"
+grep -q '^overlap: ' table.txt || fail "no table of overlaps"
+head -c 400 model.ply | grep -aq '^property int scan$' || fail "no numbers of scans in the model"
+expect 0 assemble $many --json --poses model.conf
+cp out.txt several.json
+[ "$(grep -c '^bmesh scan_' model.conf)" -eq 4 ] || fail "not four scans in model.conf"
+holds /components 2
+holds /scans/1/component 1
+holds /scans/1/pose/0/0 1.0
+expect 0 assemble $many --json --threads 1 --poses model.aln
+cmp -s out.txt several.json || fail "the assembly depends on the number of threads"
+[ "$(head -n 1 model.aln)" = 4 ] || fail "not four scans in model.aln"
+expect 3 assemble many/scan_0.ply other/scan_0.ply
+expect 3 assemble $many --time-budget 1e-9
+rejects "no SCAN is given" assemble --poses poses.txt
+rejects "missing.ply" assemble many/scan_0.ply missing.ply
 
 # No time, not even to prepare the scans.
 expect 3 register $pair --time-budget 1e-9 --output nothing
