@@ -158,6 +158,8 @@ int run_assemble(const std::vector<std::string>& arguments)
   add("viewpoint", po::value<std::string>(),
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
   add("graph", po::value<std::string>(), "file for the graph of the pairs, for GraphViz");
+  add("store", po::value<std::string>(),
+      "folder that keeps the answer of each pair: a run that was ended, or has more scans, does none again");
   add("time-budget", po::value<double>(), "seconds after which the search ends, with what has been found");
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
@@ -186,8 +188,10 @@ int run_assemble(const std::vector<std::string>& arguments)
   const std::vector<Scan> scans = prepared(files, viewpoint);
   const double preparation = seconds_since(start);
   constexpr double shortest = 1e-9;
-  const Result result = CR::assemble_scans<CGAL::Parallel_if_available_tag>(
-      scans, CR::parameters::time_budget((std::max)(shortest, time_budget - preparation)));
+  const auto np = CR::parameters::time_budget((std::max)(shortest, time_budget - preparation));
+  const auto store = value_of<std::string>(map, "store");
+  const Result result = store ? CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np.store(*store))
+                              : CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np);
 
   if (const auto file = value_of<std::string>(map, "poses")) write_poses(*file, result, names);
   if (const auto file = value_of<std::string>(map, "graph"))

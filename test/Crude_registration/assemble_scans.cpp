@@ -21,9 +21,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -212,6 +216,45 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_ended_says_so)
   BOOST_TEST(result.number_of_components() == 3u);
   for (const auto& s : result.scans()) BOOST_TEST(!s.reason.empty());
   BOOST_CHECK_THROW(CR::assemble_scans(set.scans, CR::parameters::time_budget(-1)), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(a_store_keeps_what_was_registered)
+{
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / "test_assemble_scans_store";
+  fs::remove_all(folder);
+  const auto store = CR::parameters::store(folder.string());
+  const Set few = views_of(0, {0, 45, 90}), set = views_of(0, {0, 45, 90, 135});
+  const Assembly plain = CR::assemble_scans(set.scans);
+  // A run that is ended keeps what it has done, whole.
+  Impatient visitor(1, 10);
+  BOOST_TEST(CR::assemble_scans(set.scans, store.visitor(std::ref(visitor))).is_interrupted());
+  check_same_bits(plain, CR::assemble_scans(set.scans, store));
+  std::map<std::string, fs::file_time_type> times;
+  const auto files = [&] {
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::directory_iterator(folder)) paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+  };
+  const std::vector<fs::path> first = files();
+  BOOST_TEST(first.size() == plain.edges().size());
+  for (const fs::path& path : first) times[path.string()] = fs::last_write_time(path);
+  // One is lost, one is cut short: these two are registered again, and no other.
+  fs::remove(first[0]);
+  fs::resize_file(first[1], fs::file_size(first[1]) / 2);
+  check_same_bits(plain, CR::assemble_scans(set.scans, store));
+  BOOST_TEST((files() == first));
+  for (std::size_t k = 2; k < first.size(); ++k)
+    BOOST_TEST((fs::last_write_time(first[k]) == times[first[k].string()]));
+  BOOST_TEST((fs::last_write_time(first[1]) != times[first[1].string()]));
+  // A run of some of the scans uses what is there.
+  CR::assemble_scans(few.scans, store);
+  BOOST_TEST((files() == first));
+  fs::remove_all(folder);
+  std::ofstream(folder) << "no folder";
+  BOOST_CHECK_THROW(CR::assemble_scans(set.scans, store), CR::IO_error);
+  fs::remove(folder);
 }
 
 // Pairs that say what they are told to, of scans in the frame of the scene.

@@ -15,6 +15,7 @@
 // Puts many scans together: unordered scans to one pose each.
 
 #include <CGAL/Crude_registration/Assembly_result.h>
+#include <CGAL/Crude_registration/IO/internal/Pair_store.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
 #include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
@@ -28,6 +29,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -137,6 +139,14 @@ back as components of its own.
     \cgalParamType{a model of `CandidateGenerator`}
     \cgalParamDefault{`Oriented_pair_candidates()`}
   \cgalParamNEnd
+  \cgalParamNBegin{store}
+    \cgalParamDescription{a folder, made if missing, that keeps a file for each pair that was registered: a run that was
+                          ended, or has more scans, registers none of them again}
+    \cgalParamType{`std::string`}
+    \cgalParamDefault{none}
+    \cgalParamExtra{Files are found by the contents of the two scans, and written whole or not at all; several runs may
+                    share a folder. It is to be used with one generator and its parameters.}
+  \cgalParamNEnd
   \cgalParamNBegin{time_budget}
     \cgalParamDescription{seconds after which the run ends}
     \cgalParamType{`double`, above zero}
@@ -153,6 +163,7 @@ back as components of its own.
 \return the poses and what they rest on. A run that is ended by its budget or its visitor returns what it has found.
 
 \throws std::invalid_argument if a parameter is out of its range, or a scan was not made for the generator
+\throws IO_error if the folder `store`, or a file in it, cannot be written
 
 The result depends on nothing but the scans and the parameters; the order of the scans matters only for the frame of
 each component, and for rounding. Complexity: some registrations a scan.
@@ -170,9 +181,22 @@ auto assemble_scans(const ScanRange& scans, const NamedParameters& np = paramete
   const auto at = [&](std::size_t i) -> const Scan<Kernel>& {
     return first[static_cast<typename std::iterator_traits<decltype(std::begin(scans))>::difference_type>(i)];
   };
-  const internal::Pair_registration register_pair = [&](std::size_t i, std::size_t j, internal::Run_control& task) {
+  const internal::Pair_registration register_now = [&](std::size_t i, std::size_t j, internal::Run_control& task) {
     return internal::to_pair_answer(internal::register_scans<CGAL::Sequential_tag>(at(i), at(j), generator, task));
   };
+  internal::Pair_registration register_pair = register_now;
+  if constexpr (internal::is_given<NamedParameters, internal_np::store_t>) {
+    const internal::Pair_store store(internal::parameter(np, internal_np::store, std::string()));
+    std::vector<internal::Content_hash> hashes;
+    for (const internal::Reduced_scan* scan : reduced) hashes.push_back(internal::hash_of(*scan));
+    register_pair = [store, hashes, &register_now](std::size_t i, std::size_t j, internal::Run_control& task) {
+      const std::string file = store.file(hashes[i], hashes[j]);
+      if (const auto answer = internal::Pair_store::read(file)) return *answer;
+      internal::Pair_answer answer = register_now(i, j, task);
+      if (!task.is_stopped()) internal::Pair_store::write(file, answer);
+      return answer;
+    };
+  }
   // What is fused of many scans is no Scan: it is registered by the default, whatever the generator.
   const internal::Surface_registration register_surfaces =
       [](const internal::Reduced_scan& source, const internal::Reduced_scan& target, internal::Run_control& task) {

@@ -35,6 +35,7 @@
   ADD(minimum_extent)                                                                                                  \
   ADD(number_of_vertices)                                                                                              \
   ADD(sampling_distance)                                                                                               \
+  ADD(store)                                                                                                           \
   ADD(time_budget)                                                                                                     \
   ADD(tolerance)                                                                                                       \
   ADD(use_normals)                                                                                                     \
