@@ -158,8 +158,8 @@ public:
   /// The pairs of scans that overlap as they lie, both ways, by source and target.
   const std::vector<Overlap>& overlaps() const { return m_parts.overlaps; }
 
-  /// What each stage did: `reduce` (scans), `predict` (pairs), `register` (pairs), `join` (rounds), `relax`
-  /// (iterations).
+  /// What each stage did: `reduce` (scans), `predict` (pairs), `register` (pairs), `join` (times that all was joined),
+  /// `fuse` (parts registered with fused surfaces), `relax` (iterations).
   const std::vector<Stage>& statistics() const { return m_parts.statistics; }
 
   /// Whether a time budget or a visitor has ended the run; what had been found by then is the answer.

@@ -37,8 +37,7 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// What an assembly takes from the registration of a pair: its distinct motions with their probabilities. The confidence
-// is that of the best motion; the others share what it leaves by their scores, at most as much as it has.
+// What an assembly takes from the registration of a pair: its distinct motions with their probabilities.
 template <class Kernel>
 Pair_answer to_pair_answer(const Registration_result<Kernel>& result)
 {
@@ -47,23 +46,13 @@ Pair_answer to_pair_answer(const Registration_result<Kernel>& result)
   answer.reason = result.reason();
   answer.overlap = result.overlap();
   answer.residual = result.residual();
-  double sum = 0;
-  for (const auto& r : result.runners_up()) sum += (std::max)(r.score, 0.);
-  double left = 1 - result.confidence();
   if (result.status() != NOT_REGISTERED)
     answer.motions.push_back({to_rigid_motion(result.transformation()), result.confidence()});
-  // What was not registered has motions, too, none of which is probable.
-  else left = (std::min)(left, result.confidence());
   constexpr std::size_t most = 5;
-  for (const auto& r : result.runners_up()) {
-    if (answer.motions.size() == most || !(r.score > 0)) break;
-    double probability = left * r.score / sum;
-    if (result.status() != NOT_REGISTERED) {
-      const double as_good = result.confidence() * r.score / (std::max)(result.score(), r.score);
-      probability = (std::min)(probability, as_good);
-    }
-    answer.motions.push_back({to_rigid_motion(r.transformation), probability});
-  }
+  constexpr double least = 1e-3; // tells nothing
+  for (const auto& r : result.runners_up())
+    if (answer.motions.size() < most && r.probability >= least)
+      answer.motions.push_back({to_rigid_motion(r.transformation), r.probability});
   return answer;
 }
 
