@@ -33,6 +33,7 @@ namespace internal {
 // share c of the cases. The third one is then seen to close it in p + (1 - p) c of the cases if it is right, and in c
 // if it is wrong; the ratio of the two, or of what is left of both, multiplies its odds against the pair's other
 // motions.
+// That nothing closes a loop speaks against a motion only where the two others are certain alone.
 inline std::vector<Tried_pair> with_loop_evidence(const Placed_scans& placed, const std::vector<Tried_pair>& pairs)
 {
   constexpr double chance = 0.05; // loops add up what is left of two motions: more close than of two pairs agree
@@ -72,7 +73,7 @@ inline std::vector<Tried_pair> with_loop_evidence(const Placed_scans& placed, co
         for (const Ranked_motion& b : pairs[r].answer.motions) {
           const double p = a.probability * b.probability;
           if (p < least) continue;
-          all += p;
+          if (a.is_registered && b.is_registered) all += p;
           ways.push_back({motion_from(pairs[r], b, third) * motion_from(pairs[found->second], a, pair.scans.first), p});
         }
       if (ways.empty()) continue;
