@@ -55,14 +55,16 @@ struct Input
 };
 
 // Reads and prepares the scans; of several failures the first is reported.
-std::vector<Scan> prepared(const std::vector<std::string>& files, const std::optional<Point>& viewpoint)
+std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::string>& files,
+                           const std::optional<Point>& viewpoint)
 {
   std::vector<Input> inputs;
   for (const std::string& file : files) inputs.push_back({file, {}, {}});
   CGAL::for_each<CGAL::Parallel_if_available_tag>(inputs, [&](Input& input) {
     try {
-      const Scan_file contents = CR::read_scan<Kernel>(input.file);
-      with_viewpoint(viewpoint, [&](const auto& np) { input.scan.emplace(contents, np, input.file); });
+      const Scan_file contents = read_scan(map, input.file);
+      with_viewpoint(viewpoint_of(contents, viewpoint),
+                     [&](const auto& np) { input.scan.emplace(contents, np, input.file); });
     } catch (...) {
       input.failure = std::current_exception();
     }
@@ -171,7 +173,7 @@ int run_assemble(const std::vector<std::string>& arguments)
                            options, {}, arguments, "SCAN");
   if (!given) return 0;
   const po::variables_map& map = *given;
-  const std::optional<Point> viewpoint = viewpoint_of(map);
+  const std::optional<Point> viewpoint = point_of(map, "viewpoint");
   const std::optional<int> threads = value_of<int>(map, "threads");
   if (threads && *threads < 1) throw Usage_error("--threads takes a number above zero");
 #ifdef CGAL_LINKED_WITH_TBB
@@ -185,7 +187,7 @@ int run_assemble(const std::vector<std::string>& arguments)
   const auto files = map["SCAN"].as<std::vector<std::string>>();
   const std::vector<std::string> names = names_of(files);
   const auto start = Clock::now();
-  const std::vector<Scan> scans = prepared(files, viewpoint);
+  const std::vector<Scan> scans = prepared(map, files, viewpoint);
   const double preparation = seconds_since(start);
   constexpr double shortest = 1e-9;
   const auto np = CR::parameters::time_budget((std::max)(shortest, time_budget - preparation));
@@ -198,7 +200,7 @@ int run_assemble(const std::vector<std::string>& arguments)
     CR::write_file(*file, [&](std::ostream& out) { write_graph(out, result, names); });
   if (const auto file = value_of<std::string>(map, "table"))
     CR::write_file(*file, [&](std::ostream& out) { write_tables(out, result, names); });
-  if (const auto file = value_of<std::string>(map, "output")) write_points(*file, result, scans, files);
+  if (const auto file = value_of<std::string>(map, "output")) write_points(*file, map, result, scans, files);
   const bool with_times = map.count("times") > 0;
   if (map.count("json") > 0) std::cout << to_text(to_json(result, files, with_times)) << '\n';
   else print_text(result, names);

@@ -175,14 +175,14 @@ inline std::vector<Point> points_of(const Scan_file& file)
 }
 
 // The points of the largest component, read again, in its frame.
-inline void write_points(const std::string& name, const Assembly& result, const std::vector<CR::Scan<Kernel>>& scans,
-                         const std::vector<std::string>& files)
+inline void write_points(const std::string& name, const po::variables_map& map, const Assembly& result,
+                         const std::vector<CR::Scan<Kernel>>& scans, const std::vector<std::string>& files)
 {
   using Sample = std::tuple<Point, int, double>;
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (result.component(i) != 0) continue;
-    const std::vector<Point> points = points_of(CR::read_scan<Kernel>(files[i]));
+    const std::vector<Point> points = points_of(read_scan(map, files[i]));
     const std::vector<double> distances = CR::distances_to_other_scans(scans, result, i, points);
     for (std::size_t k = 0; k < points.size(); ++k)
       samples.emplace_back(result.pose(i).transform(points[k]), int(i),
