@@ -6,7 +6,6 @@
 #include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
-#include <CGAL/Crude_registration/sampling/triangulate_points.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
@@ -260,9 +259,7 @@ BOOST_AUTO_TEST_CASE(parts_of_a_room)
         const Vector v = motion(generated::vector(q));
         moved.emplace_back(v.x(), v.y(), v.z());
       }
-      Mesh mesh;
-      CR::triangulate_points(moved, mesh);
-      return Scan(mesh);
+      return Scan(moved);
     };
     check_right(CR::register_scans(scan(a, to_source), scan(b, to_target)), to_target * to_source.inverse(),
                 to_source(Vector(3, 2, 1)), 0.03);
@@ -423,7 +420,7 @@ BOOST_AUTO_TEST_CASE(a_preparation_can_be_ended)
   };
   ends(mesh, 1);
   ends(v.image, 1);
-  ends(v.image.points(), 30); // in the midst of the front
+  ends(v.image.points(), 3);
 
   for (int looks : {0, 2}) {
     Impatient impatient(1, looks);

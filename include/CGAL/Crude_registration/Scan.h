@@ -24,7 +24,7 @@
 #include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
 #include <CGAL/Crude_registration/internal/sampling/estimate_flat_sensor.h>
 #include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation.h>
-#include <CGAL/Crude_registration/internal/sampling/flat_point_triangulation.h>
+#include <CGAL/Crude_registration/internal/sampling/orient_points.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -118,8 +118,7 @@ All constructors read these named parameters:
 
 A parameter that is out of its range is refused by `std::invalid_argument`, as is a scan whose size is not between 1e-12
 and 1e12. Where the budget or the visitor ends the preparation, `Preparation_interrupted` is thrown: within a tenth of a
-second for scans of up to five million samples; within two tenths where points are joined whose sensor is not known, as
-the front ends in one step. What is thrown by the visitor is passed on.
+second for scans of up to five million samples. What is thrown by the visitor is passed on.
 
 Complexity: linear in the size of the input; the size of the result is bounded (some megabytes).
 */
@@ -182,7 +181,8 @@ public:
   }
 
   /*!
-  prepares points without faces (see `triangulate_points()`).
+  prepares points without faces: each gets the normal of the plane that fits its neighbourhood. Copies of points are
+  one, and the density is evened.
 
   \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 
@@ -190,7 +190,7 @@ public:
   \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class
   \param name what the points are called in the text of exceptions
 
-  \throws std::invalid_argument if a coordinate is not finite or no face is left
+  \throws std::invalid_argument if a coordinate is not finite or the points are no samples of a surface
   */
   template <class NamedParameters = parameters::Default_named_parameters>
   explicit Scan(const std::vector<Point_3>& points, const NamedParameters& np = parameters::default_values(),
@@ -329,8 +329,28 @@ private:
     const std::vector<internal::Vector> flat =
         internal::to_flat_points(points, CGAL::Identity_property_map<Point_3>(), name, "it", control);
     const internal::Flat_sensor sensor = internal::sensor_parameter(np, name);
-    prepare(internal::flat_triangulation(flat, sensor, internal::default_maximum_edge_ratio, control), sensor, nullptr,
-            np, name, control);
+    const auto start = std::chrono::steady_clock::now();
+    control.check();
+    check_size(flat, name);
+    m_reduced = internal::reduce_scan(internal::orient_points(flat, {}, sensor, control), sensor, {}, control);
+    if (m_reduced.number_of_samples == 0)
+      throw std::invalid_argument(name + " has no surface: the points are no samples of one that the sensor can see");
+    // Without candidates: any type that needs nothing.
+    const auto& generator = internal::parameter(np, internal_np::candidates, 0);
+    using Generator = std::remove_cv_t<std::remove_reference_t<decltype(generator)>>;
+    if constexpr (has_preparation_of_points<Generator, NamedParameters>(0))
+      generator.prepare(flat, sensor, np, name, control, m_reduced);
+    m_reduced.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  // Squares of lengths are computed in float.
+  static void check_size(const std::vector<internal::Vector>& points, const std::string& name)
+  {
+    constexpr double smallest = 1e-12, largest = 1e12;
+    double size = 0;
+    for (const internal::Vector& p : points) size = (std::max)(size, (p - points.front()).norm());
+    if (size > 0 && !(size > smallest && size < largest))
+      throw std::invalid_argument(name + ": its size is not between 1e-12 and 1e12: another unit of length is needed");
   }
 
   // `image`: what `mesh` is the triangulation of, or null.
@@ -350,12 +370,7 @@ private:
   {
     const auto start = std::chrono::steady_clock::now();
     control.check();
-    // Squares of lengths are computed in float.
-    constexpr double smallest = 1e-12, largest = 1e12;
-    double size = 0;
-    for (const internal::Vector& p : mesh.points) size = (std::max)(size, (p - mesh.points.front()).norm());
-    if (size > 0 && !(size > smallest && size < largest))
-      throw std::invalid_argument(name + ": its size is not between 1e-12 and 1e12: another unit of length is needed");
+    check_size(mesh.points, name);
     m_reduced = internal::reduce_scan(mesh, sensor, {}, control);
     if (m_reduced.number_of_samples == 0)
       throw std::invalid_argument(name + " has no surface: there is no face of positive area that the sensor can see");
@@ -377,6 +392,22 @@ private:
   }
   template <class, class>
   static constexpr bool has_preparation(long)
+  {
+    return false;
+  }
+
+  // The same for points.
+  template <class Generator, class NamedParameters,
+            class = decltype(std::declval<const Generator&>().prepare(
+                std::declval<const std::vector<internal::Vector>&>(), std::declval<const internal::Flat_sensor&>(),
+                std::declval<const NamedParameters&>(), std::declval<const std::string&>(),
+                std::declval<internal::Run_control&>(), std::declval<internal::Reduced_scan&>()))>
+  static constexpr bool has_preparation_of_points(int)
+  {
+    return true;
+  }
+  template <class, class>
+  static constexpr bool has_preparation_of_points(long)
   {
     return false;
   }
