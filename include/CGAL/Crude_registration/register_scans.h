@@ -17,6 +17,7 @@
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/judgement/conclude.h>
 #include <CGAL/Crude_registration/internal/motion/Refinement.h>
 #include <CGAL/Crude_registration/internal/pipeline/User_candidates.h>
 #include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
@@ -30,6 +31,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -108,12 +110,39 @@ Candidate_factory candidate_factory(const Generator& generator, const Scan<Kerne
 }
 
 template <class ConcurrencyTag, class Kernel, class Generator>
+Registration_outcome outcome_of(const Scan<Kernel>& source, const Scan<Kernel>& target, const Generator& generator,
+                                Run_control& control)
+{
+  return register_reduced_scans(source.reduced(), target.reduced(),
+                                candidate_factory<ConcurrencyTag>(generator, source, target),
+                                execution<ConcurrencyTag>(), control);
+}
+
+// Where nothing tells from which side a scan was seen, both are tried, until a motion is to be believed; else the most
+// probable one counts.
+template <class ConcurrencyTag, class Kernel, class Generator>
 Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
                                            const Generator& generator, Run_control& control)
 {
-  return to_result<Kernel>(register_reduced_scans(source.reduced(), target.reduced(),
-                                                  candidate_factory<ConcurrencyTag>(generator, source, target),
-                                                  execution<ConcurrencyTag>(), control));
+  std::vector<std::pair<const Scan<Kernel>*, const Scan<Kernel>*>> sides = {{&source, &target}};
+  const Scan<Kernel>*other_source = source.other_side(), *other_target = target.other_side();
+  if (other_target) sides.push_back({&source, other_target});
+  if (other_source) sides.push_back({other_source, &target});
+  // The same for source and target exchanged.
+  if (sides.size() == 3 && are_swapped(source.reduced(), target.reduced())) std::swap(sides[1], sides[2]);
+  if (other_source && other_target) sides.push_back({other_source, other_target});
+  Registration_outcome best;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    control.set_part(i, sides.size());
+    Registration_outcome outcome = outcome_of<ConcurrencyTag>(*sides[i].first, *sides[i].second, generator, control);
+    if (i == 0 || is_better(outcome, best)) std::swap(outcome, best);
+    if (i > 0) add_stages(outcome, best);
+    if (best.verdict.status == REGISTERED) break;
+    if (!control.is_stopped()) continue;
+    best.verdict = interrupted(best.poses);
+    break;
+  }
+  return to_result<Kernel>(best);
 }
 
 } // namespace internal

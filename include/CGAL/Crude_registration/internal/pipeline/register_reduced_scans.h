@@ -50,6 +50,31 @@ struct Registration_outcome
   }
 };
 
+// Is the one motion more probable than the other?
+inline bool is_better(const Registration_outcome& a, const Registration_outcome& b)
+{
+  if (a.poses.empty() || b.poses.empty()) return !a.poses.empty() && b.poses.empty();
+  return a.poses.front().log_odds > b.poses.front().log_odds;
+}
+
+// Adds what another run, of the same scans, did to the record of the stages. They are reduced once.
+inline void add_stages(const Registration_outcome& other, Registration_outcome& outcome)
+{
+  for (std::size_t i = 1; i < other.stages.size() && i < outcome.stages.size(); ++i) {
+    outcome.stages[i].count += other.stages[i].count;
+    outcome.stages[i].seconds += other.stages[i].seconds;
+  }
+}
+
+// The scan with fewer surfels is looked for in the other one; equal ones are told apart by size, so that swapping the
+// arguments gives the inverse.
+inline bool are_swapped(const Reduced_scan& source, const Reduced_scan& target)
+{
+  if (source.coarse.surfels.size() != target.coarse.surfels.size())
+    return source.coarse.surfels.size() > target.coarse.surfels.size();
+  return source.extent > target.extent;
+}
+
 // a and b are source and target; the smaller one of them is looked for in the other.
 Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,
                                             const Candidate_factory& make_candidates, Execution execution,

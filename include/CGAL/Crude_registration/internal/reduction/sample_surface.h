@@ -91,7 +91,6 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vecto
     }
     return samples;
   }
-  constexpr double grazing = 0.12;
   const std::vector<Vector> normals = vertex_normals(mesh, control);
   samples.points.reserve(mesh.points.size());
   samples.normals.reserve(mesh.points.size());
@@ -100,7 +99,7 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vecto
     if (normals[i].isZero()) continue;
     if (sensor.kind != Flat_sensor::UNKNOWN) {
       const Vector sight = sensor.towards(mesh.points[i]);
-      if (-sight.dot(normals[i]) < grazing * sight.norm()) continue;
+      if (-sight.dot(normals[i]) < grazing_cosine * sight.norm()) continue;
     }
     samples.points.push_back(own(mesh.points[i]).cast<float>());
     samples.normals.push_back(rotation * normals[i].cast<float>());

@@ -126,8 +126,8 @@ public:
     }
   }
 
-  // Within so many spacings a sample's neighbourhood is looked for: of even samples it holds some twenty.
-  static constexpr double reach = 2.5;
+  // Within so many spacings a sample's neighbourhood is looked for: of even samples it holds some fifteen (pi 2.2^2).
+  static constexpr double reach = 2.2;
 
   double radius(std::size_t scale) const { return std::ldexp(reach * m_points.spacing(), int(scale)); }
 
@@ -135,9 +135,9 @@ public:
   std::vector<std::uint8_t> scales; // the level at which it was found
 
 private:
-  // How far a neighbourhood may be from a plane, as variances: noise of a quarter of its radius against the quarter of
-  // the squared radius that a disc has; a right angle has 0.28.
-  static constexpr double flat = 0.25, flattest_fold = 0.5;
+  // How far a neighbourhood may be from a plane, as the ratio of variances, across it over along it. A disc has a
+  // quarter of its squared radius along it: noise of a sixth of the radius makes up 0.12; a right angle has 0.28.
+  static constexpr double flat = 0.12, flattest_fold = 0.5;
   static constexpr std::size_t number_of_scales = 4;
 
   // Tries scale by scale. Where none is flat (a fold), the flattest counts, of those the finest.
@@ -173,7 +173,7 @@ private:
       m_around.push_back(points[std::size_t(j)] - p);
       fit.add(m_around.back());
     });
-    constexpr std::size_t fewest = 6;
+    constexpr std::size_t fewest = 5;
     constexpr double thinnest = 0.08; // a half disc has 0.28, two lines at a radius's distance more
     if (fit.count() < fewest) return Plane_fit();
     fit.solve();

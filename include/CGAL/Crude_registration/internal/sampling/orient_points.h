@@ -25,13 +25,23 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
+// Where the sensor is known, what it sees at such an angle, seven degrees from along the surface, is left out: it may
+// be what bridges a depth edge.
+constexpr double grazing_cosine = 0.12;
+
 // Samples of a surface, of even density, in the frame of the input.
 struct Oriented_points
 {
   std::vector<Vector> points;
   std::vector<Vector> normals; // unit
   double area = 0;             // of the surface that they are samples of
+  bool is_side_known = true;   // or as likely the other one, of all together
 };
+
+inline void turn_over(Oriented_points& samples)
+{
+  for (Vector& n : samples.normals) n = -n;
+}
 
 // Makes samples of points:
 // 1. copies are one point, and the density is evened: what is left are the means of the cells of a grid that is laid
