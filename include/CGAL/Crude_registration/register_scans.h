@@ -26,6 +26,7 @@
 
 #include <CGAL/tags.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -118,8 +119,8 @@ Registration_outcome outcome_of(const Scan<Kernel>& source, const Scan<Kernel>& 
                                 execution<ConcurrencyTag>(), control);
 }
 
-// Where nothing tells from which side a scan was seen, both are tried, until a motion is to be believed; else the most
-// probable one counts.
+// Where nothing tells from which side a scan was seen, both are tried, until a motion is certain. The most probable one
+// counts; what other sides bring are its rivals.
 template <class ConcurrencyTag, class Kernel, class Generator>
 Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
                                            const Generator& generator, Run_control& control)
@@ -131,17 +132,23 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
   // The same for source and target exchanged.
   if (sides.size() == 3 && are_swapped(source.reduced(), target.reduced())) std::swap(sides[1], sides[2]);
   if (other_source && other_target) sides.push_back({other_source, other_target});
-  Registration_outcome best;
+  // A tenth of the doubt at which a motion is believed: what is less certain is compared with the other sides.
+  constexpr double certain = 1 - (1 - believed) / 10;
+  const double extent = (std::min)(source.extent(), target.extent());
+  std::vector<Registration_outcome> outcomes; // the best one first
   for (std::size_t i = 0; i < sides.size(); ++i) {
     control.set_part(i, sides.size());
-    Registration_outcome outcome = outcome_of<ConcurrencyTag>(*sides[i].first, *sides[i].second, generator, control);
-    if (i == 0 || is_better(outcome, best)) std::swap(outcome, best);
-    if (i > 0) add_stages(outcome, best);
-    if (best.verdict.status == REGISTERED) break;
-    if (!control.is_stopped()) continue;
-    best.verdict = interrupted(best.poses);
-    break;
+    outcomes.push_back(outcome_of<ConcurrencyTag>(*sides[i].first, *sides[i].second, generator, control));
+    if (is_better(outcomes.back(), outcomes.front())) std::swap(outcomes.back(), outcomes.front());
+    const Verdict& verdict = outcomes.front().verdict;
+    if (control.is_stopped() || (verdict.status == REGISTERED && verdict.confidence >= certain)) break;
   }
+  Registration_outcome& best = outcomes.front();
+  for (std::size_t i = 1; i < outcomes.size(); ++i) {
+    add_rival(outcomes[i], extent, best);
+    add_stages(outcomes[i], best);
+  }
+  if (control.is_stopped() && outcomes.size() > 1) best.verdict = interrupted(best.poses);
   return to_result<Kernel>(best);
 }
 

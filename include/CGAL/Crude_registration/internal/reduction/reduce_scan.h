@@ -29,6 +29,9 @@ struct Reduction_parameters
 {
   double fine_surfels = 15000;
   double coarse_surfels = 1800;
+  // Of a scan of few samples:
+  double fewest_fine_surfels = 1000;
+  double fewest_coarse_surfels = 500;
 };
 
 // Reduces a scan. The sensor is in the frame of the mesh.

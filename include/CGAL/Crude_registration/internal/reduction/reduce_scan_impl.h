@@ -94,8 +94,14 @@ inline void reduce_samples(const Oriented_samples& samples, double area, const F
   scan.number_of_samples = samples.points.size();
   if (samples.points.empty()) return;
   scan.spacing = std::sqrt(area / double(samples.points.size()));
-  const double fine = (std::max)(2 * scan.spacing, cell_of_surfels(area, parameters.fine_surfels));
-  const double coarse = (std::max)(3.5 * scan.spacing, cell_of_surfels(area, parameters.coarse_surfels));
+  // Cells of so many spacings leave some samples to be averaged; narrower ones where hardly a surfel would be left.
+  const auto cell_of_samples = [&](double spacings, double fewest) {
+    return (std::max)((std::min)(spacings * scan.spacing, cell_of_surfels(area, fewest)), scan.spacing);
+  };
+  const double fine =
+      (std::max)(cell_of_samples(2, parameters.fewest_fine_surfels), cell_of_surfels(area, parameters.fine_surfels));
+  const double coarse = (std::max)(cell_of_samples(3.5, parameters.fewest_coarse_surfels),
+                                   cell_of_surfels(area, parameters.coarse_surfels));
 
   scan.fine = grouped(samples.points, samples.normals, {}, float(fine));
   std::vector<Vector_f> points, normals;

@@ -46,9 +46,11 @@ public:
     if (!m_lines.has_grid() || m_samples.empty()) return std::nullopt;
     measure();
     std::vector<Place> places = all_places();
-    keep_best(places, 0, 100, 100);
-    keep_best(places, 100, 500, 25);
-    keep_best(places, 600, m_samples.size(), places.size());
+    // The fewer places are left, the more samples are asked: about as many lines in each round.
+    keep_best(places, 0, 25, 200);
+    keep_best(places, 25, 75, 60);
+    keep_best(places, 100, 250, 20);
+    keep_best(places, 350, 1000, places.size());
     // A body seen from one side is as visible from behind: the surface bulges towards the sensor, if anywhere.
     constexpr double all = 0.95, most = 0.7, half_of_the_sphere = 0.5;
     const Place& best = places.front();
