@@ -132,8 +132,6 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
   // The same for source and target exchanged.
   if (sides.size() == 3 && are_swapped(source.reduced(), target.reduced())) std::swap(sides[1], sides[2]);
   if (other_source && other_target) sides.push_back({other_source, other_target});
-  // A tenth of the doubt at which a motion is believed: what is less certain is compared with the other sides.
-  constexpr double certain = 1 - (1 - believed) / 10;
   const double extent = (std::min)(source.extent(), target.extent());
   std::vector<Registration_outcome> outcomes; // the best one first
   for (std::size_t i = 0; i < sides.size(); ++i) {
