@@ -1,3 +1,14 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Author(s)     : The Crude_registration authors
+
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_FACES_OF_SCAN_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MESH_FACES_OF_SCAN_H
 
