@@ -247,7 +247,7 @@ public:
                 internal::sensor_parameter(np, name), nullptr, np, generator_of(np), name, control);
         break;
       case Scan_file<Kernel>::POINTS:
-        prepare_points(file.points, {}, np, name, control);
+        prepare_points(file.points, file.normals, np, name, control);
       }
     });
   }
