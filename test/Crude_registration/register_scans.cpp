@@ -6,7 +6,6 @@
 #include "wrong_use.h"
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
-#include <CGAL/Crude_registration/sampling/triangulate_points.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
@@ -19,6 +18,7 @@
 #include <CGAL/boost/graph/graph_traits_PolyMesh_ArrayKernelT.h>
 #endif
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -260,13 +260,78 @@ BOOST_AUTO_TEST_CASE(parts_of_a_room)
         const Vector v = motion(generated::vector(q));
         moved.emplace_back(v.x(), v.y(), v.z());
       }
-      Mesh mesh;
-      CR::triangulate_points(moved, mesh);
-      return Scan(mesh);
+      return Scan(moved);
     };
     check_right(CR::register_scans(scan(a, to_source), scan(b, to_target)), to_target * to_source.inverse(),
                 to_source(Vector(3, 2, 1)), 0.03);
   }
+}
+
+// A shell looks the same from behind: points alone do not tell from which side it was seen.
+BOOST_AUTO_TEST_CASE(points_without_a_sensor)
+{
+  const auto points = [](int degrees) { return Scan(view(0, degrees).image.points()); };
+  for (const auto& [a, b] : {std::pair(0, 45), std::pair(90, 45), std::pair(270, 0)}) {
+    BOOST_TEST_CONTEXT(a << " to " << b)
+    {
+      const View &source = view(0, a), &target = view(0, b);
+      const Scan source_points = points(a), target_points = points(b);
+      const Result there = CR::register_scans(source_points, target_points);
+      check_right(there, source, target);
+      check_right(CR::register_scans(source_points, target.scan), source, target);
+      check_right(CR::register_scans(source.scan, target_points), source, target);
+      // Source and target exchanged, the sides are tried in the same order.
+      const Result back = CR::register_scans(target_points, source_points);
+      BOOST_TEST(there.confidence() == back.confidence());
+      BOOST_TEST(
+          (to_rigid_motion(there.transformation()).rotation - to_rigid_motion(back.inverse_transformation()).rotation)
+              .norm() < 1e-14);
+    }
+  }
+  check_not_registered(CR::register_scans(points(0), points(180)));
+  check_not_registered(CR::register_scans(points(0), Scan(view(1, 0).image.points())));
+}
+
+BOOST_AUTO_TEST_CASE(both_sides_are_one_run)
+{
+  const Scan a(view(0, 0).image.points()), b(view(0, 180).image.points());
+  BOOST_TEST_REQUIRE(a.other_side() != nullptr);
+  BOOST_TEST_REQUIRE(b.other_side() != nullptr);
+  struct Visitor
+  {
+    std::vector<double> seen;
+    void progress(double done) { seen.push_back(done); }
+    bool go_further() { return true; }
+  } visitor;
+  check_not_registered(CR::register_scans(a, b, p::visitor(std::ref(visitor))));
+  BOOST_TEST(std::is_sorted(visitor.seen.begin(), visitor.seen.end()));
+  for (const double s : visitor.seen) BOOST_TEST_REQUIRE((0 <= s && s <= 1));
+}
+
+// Here they look away from the sensor, which is what is given.
+BOOST_AUTO_TEST_CASE(normals_of_points_tell_their_side)
+{
+  const std::vector<Point> points = view(0, 0).image.points();
+  std::vector<Kernel::Vector_3> normals;
+  for (const Point& q : points) normals.push_back(3 * (q - origin));
+  const auto facing = [](const Scan& scan) {
+    double sum = 0;
+    for (std::size_t i = 0; i < scan.points().size(); ++i) sum += scan.normals()[i] * (origin - scan.points()[i]) > 0;
+    return sum / double(scan.points().size());
+  };
+  const Scan away(points, normals);
+  BOOST_TEST(away.other_side() == nullptr);
+  BOOST_TEST(facing(away) < 0.02);
+  for (auto& n : normals) n = -n;
+  BOOST_TEST(facing(Scan(points, normals)) > 0.98);
+  // The sensor knows better; no normals are none.
+  for (auto& n : normals) n = -n;
+  BOOST_TEST(facing(Scan(points, normals, p::viewpoint(origin))) > 0.98);
+  BOOST_TEST(Scan(points, std::vector<Kernel::Vector_3>()).other_side() != nullptr);
+  normals.pop_back();
+  BOOST_CHECK_THROW(Scan(points, normals), std::invalid_argument);
+  normals.emplace_back(0, std::numeric_limits<double>::quiet_NaN(), 0);
+  BOOST_CHECK_THROW(Scan(points, normals), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(range_image_mesh_and_points_of_one_scan)
@@ -423,7 +488,7 @@ BOOST_AUTO_TEST_CASE(a_preparation_can_be_ended)
   };
   ends(mesh, 1);
   ends(v.image, 1);
-  ends(v.image.points(), 30); // in the midst of the front
+  ends(v.image.points(), 3);
 
   for (int looks : {0, 2}) {
     Impatient impatient(1, looks);

@@ -18,24 +18,24 @@
 #include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
-#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/faces_of_scan.h>
 #include <CGAL/Crude_registration/internal/mesh/to_flat_points.h>
+#include <CGAL/Crude_registration/internal/reduction/prepare_for.h>
 #include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
 #include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
 #include <CGAL/Crude_registration/internal/sampling/estimate_flat_sensor.h>
 #include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation.h>
-#include <CGAL/Crude_registration/internal/sampling/flat_point_triangulation.h>
+#include <CGAL/Crude_registration/internal/sampling/orient_points.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/property_map.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -118,8 +118,7 @@ All constructors read these named parameters:
 
 A parameter that is out of its range is refused by `std::invalid_argument`, as is a scan whose size is not between 1e-12
 and 1e12. Where the budget or the visitor ends the preparation, `Preparation_interrupted` is thrown: within a tenth of a
-second for scans of up to five million samples; within two tenths where points are joined whose sensor is not known, as
-the front ends in one step. What is thrown by the visitor is passed on.
+second for scans of up to five million samples. What is thrown by the visitor is passed on.
 
 Complexity: linear in the size of the input; the size of the result is bounded (some megabytes).
 */
@@ -182,7 +181,9 @@ public:
   }
 
   /*!
-  prepares points without faces (see `triangulate_points()`).
+  prepares points without faces: each gets the normal of the plane that fits its neighbourhood. Copies of points are
+  one, and the density is evened. Where neither the sensor is known nor the surface closed, `register_scans()` tries
+  both sides of the surface.
 
   \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 
@@ -190,13 +191,35 @@ public:
   \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class
   \param name what the points are called in the text of exceptions
 
-  \throws std::invalid_argument if a coordinate is not finite or no face is left
+  \throws std::invalid_argument if a coordinate is not finite or the points are no samples of a surface
   */
   template <class NamedParameters = parameters::Default_named_parameters>
   explicit Scan(const std::vector<Point_3>& points, const NamedParameters& np = parameters::default_values(),
                 const std::string& name = "Scan: points")
   {
-    within_limits(np, name, [&](internal::Run_control& control) { prepare_points(points, np, name, control); });
+    within_limits(np, name, [&](internal::Run_control& control) { prepare_points(points, {}, np, name, control); });
+  }
+
+  /*!
+  prepares points with normals, which tell the side from where the surface was seen, unless the sensor is given. The
+  directions of the normals are taken from the points as above.
+
+  \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+  \param points the samples
+  \param normals of the points, in their order, of any length; null where there is none. Empty if there are none.
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class
+  \param name what the points are called in the text of exceptions
+
+  \throws std::invalid_argument if a coordinate is not finite, the points are no samples of a surface, or there are
+         not as many normals as points
+  */
+  template <class NamedParameters = parameters::Default_named_parameters>
+  Scan(const std::vector<Point_3>& points, const std::vector<Vector_3>& normals,
+       const NamedParameters& np = parameters::default_values(), const std::string& name = "Scan: points")
+  {
+    within_limits(np, name,
+                  [&](internal::Run_control& control) { prepare_points(points, normals, np, name, control); });
   }
 
   /*!
@@ -220,11 +243,11 @@ public:
         prepare_image(file.image, np, name, control);
         break;
       case Scan_file<Kernel>::MESH:
-        prepare(to_flat_mesh(file.mesh, parameters::default_values(), name, control),
-                internal::sensor_parameter(np, name), nullptr, np, name, control);
+        prepare(internal::faces_of_scan(file.mesh, parameters::default_values(), name, control),
+                internal::sensor_parameter(np, name), nullptr, np, generator_of(np), name, control);
         break;
       case Scan_file<Kernel>::POINTS:
-        prepare_points(file.points, np, name, control);
+        prepare_points(file.points, file.normals, np, name, control);
       }
     });
   }
@@ -268,17 +291,22 @@ public:
   /// \cond SKIP_IN_MANUAL
   const internal::Reduced_scan& reduced() const { return m_reduced; }
 
+  // The surface seen from its other side, where nothing tells from which it was seen; or null.
+  const Scan* other_side() const { return m_other_side.get(); }
+
   // As a part of a longer run. \throws internal::Run_control::Stopped
   template <class FaceGraph, class NamedParameters, class Generator>
   Scan(const FaceGraph& mesh, const NamedParameters& np, const Generator& generator, const std::string& name,
        internal::Run_control& control)
   {
-    prepare(to_flat_mesh(mesh, np, name, control), internal::sensor_parameter(np, name), nullptr, np, generator, name,
-            control);
+    prepare(internal::faces_of_scan(mesh, np, name, control), internal::sensor_parameter(np, name), nullptr, np,
+            generator, name, control);
   }
   /// \endcond
 
 private:
+  explicit Scan(internal::Reduced_scan reduced) : m_reduced(std::move(reduced)) {}
+
   template <class NamedParameters, class Function>
   static void within_limits(const NamedParameters& np, const std::string& name, const Function& f)
   {
@@ -290,24 +318,12 @@ private:
     }
   }
 
-  // Readers of meshes pass over what is no face, and return what is left without a word.
-  template <class FaceGraph, class NamedParameters>
-  static internal::Flat_mesh to_flat_mesh(const FaceGraph& mesh, const NamedParameters& np, const std::string& name,
-                                          internal::Run_control& control)
-  {
-    internal::Flat_mesh flat = internal::to_flat_mesh(mesh, np, name, "it", control);
-    if (flat.faces.empty())
-      throw std::invalid_argument(
-          name + " has no faces: a PLY file with a range grid, or with points alone, has none " +
-          "where CGAL::IO reads it as a mesh; read the file with read_scan(), and make the " + "Scan of what it finds");
-    return flat;
-  }
-
   template <class FaceGraph, class NamedParameters>
   void prepare_mesh(const FaceGraph& mesh, const NamedParameters& np, const std::string& name,
                     internal::Run_control& control)
   {
-    prepare(to_flat_mesh(mesh, np, name, control), internal::sensor_parameter(np, name), nullptr, np, name, control);
+    prepare(internal::faces_of_scan(mesh, np, name, control), internal::sensor_parameter(np, name), nullptr, np,
+            generator_of(np), name, control);
   }
 
   template <class NamedParameters>
@@ -319,69 +335,58 @@ private:
     if (flat.sensor.kind == internal::Flat_sensor::UNKNOWN) flat.sensor = internal::estimated_sensor(flat, control);
     prepare(internal::flat_triangulation(flat, internal::sampling(flat, control), internal::default_maximum_edge_ratio,
                                          control),
-            flat.sensor, &flat, np, name, control);
+            flat.sensor, &flat, np, generator_of(np), name, control);
   }
 
   template <class NamedParameters>
-  void prepare_points(const std::vector<Point_3>& points, const NamedParameters& np, const std::string& name,
-                      internal::Run_control& control)
+  void prepare_points(const std::vector<Point_3>& points, const std::vector<Vector_3>& normals,
+                      const NamedParameters& np, const std::string& name, internal::Run_control& control)
   {
     const std::vector<internal::Vector> flat =
         internal::to_flat_points(points, CGAL::Identity_property_map<Point_3>(), name, "it", control);
+    const std::vector<internal::Vector> flat_normals =
+        internal::to_flat_normals(normals, points.size(), name, "it", control);
     const internal::Flat_sensor sensor = internal::sensor_parameter(np, name);
-    prepare(internal::flat_triangulation(flat, sensor, internal::default_maximum_edge_ratio, control), sensor, nullptr,
-            np, name, control);
-  }
-
-  // `image`: what `mesh` is the triangulation of, or null.
-  template <class NamedParameters>
-  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor,
-               const internal::Flat_range_image* image, const NamedParameters& np, const std::string& name,
-               internal::Run_control& control)
-  {
-    // Without candidates: any type that needs nothing.
-    prepare(mesh, sensor, image, np, internal::parameter(np, internal_np::candidates, 0), name, control);
-  }
-
-  template <class NamedParameters, class Generator>
-  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor,
-               const internal::Flat_range_image* image, const NamedParameters& np,
-               [[maybe_unused]] const Generator& generator, const std::string& name, internal::Run_control& control)
-  {
     const auto start = std::chrono::steady_clock::now();
     control.check();
-    // Squares of lengths are computed in float.
-    constexpr double smallest = 1e-12, largest = 1e12;
-    double size = 0;
-    for (const internal::Vector& p : mesh.points) size = (std::max)(size, (p - mesh.points.front()).norm());
-    if (size > 0 && !(size > smallest && size < largest))
-      throw std::invalid_argument(name + ": its size is not between 1e-12 and 1e12: another unit of length is needed");
-    m_reduced = internal::reduce_scan(mesh, sensor, {}, control);
+    internal::check_scan_size(flat, name);
+    internal::Oriented_points samples = internal::orient_points(flat, flat_normals, sensor, control);
+    m_reduced = internal::reduce_scan(samples, sensor, {}, control);
     if (m_reduced.number_of_samples == 0)
-      throw std::invalid_argument(name + " has no surface: there is no face of positive area that the sensor can see");
-    if constexpr (has_preparation<Generator, NamedParameters>(0))
-      generator.prepare(mesh, sensor, image, np, name, control, m_reduced);
+      throw std::invalid_argument(name + " has no surface: the points are no samples of one that the sensor can see");
+    const bool is_prepared = internal::prepare_for(generator_of(np), 0, flat, sensor, np, name, control, m_reduced);
+    if (!samples.is_side_known && !is_prepared) {
+      internal::turn_over(samples);
+      m_other_side = std::shared_ptr<const Scan>(new Scan(internal::reduce_scan(samples, sensor, {}, control)));
+    }
     m_reduced.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  // Whether a candidate generator needs more of a scan than what it is reduced to.
-  template <class Generator, class NamedParameters,
-            class = decltype(std::declval<const Generator&>().prepare(
-                std::declval<const internal::Flat_mesh&>(), std::declval<const internal::Flat_sensor&>(),
-                std::declval<const internal::Flat_range_image*>(), std::declval<const NamedParameters&>(),
-                std::declval<const std::string&>(), std::declval<internal::Run_control&>(),
-                std::declval<internal::Reduced_scan&>()))>
-  static constexpr bool has_preparation(int)
+  // The generator that the scan is prepared for, or any type that needs nothing.
+  template <class NamedParameters>
+  static decltype(auto) generator_of(const NamedParameters& np)
   {
-    return true;
+    return internal::parameter(np, internal_np::candidates, 0);
   }
-  template <class, class>
-  static constexpr bool has_preparation(long)
+
+  // `image`: what `mesh` is the triangulation of, or null.
+  template <class NamedParameters, class Generator>
+  void prepare(const internal::Flat_mesh& mesh, const internal::Flat_sensor& sensor,
+               const internal::Flat_range_image* image, const NamedParameters& np, const Generator& generator,
+               const std::string& name, internal::Run_control& control)
   {
-    return false;
+    const auto start = std::chrono::steady_clock::now();
+    control.check();
+    internal::check_scan_size(mesh.points, name);
+    m_reduced = internal::reduce_scan(mesh, sensor, {}, control);
+    if (m_reduced.number_of_samples == 0)
+      throw std::invalid_argument(name + " has no surface: there is no face of positive area that the sensor can see");
+    internal::prepare_for(generator, 0, mesh, sensor, image, np, name, control, m_reduced);
+    m_reduced.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   internal::Reduced_scan m_reduced;
+  std::shared_ptr<const Scan> m_other_side;
 };
 
 } // namespace Crude_registration

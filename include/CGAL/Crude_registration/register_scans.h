@@ -17,6 +17,7 @@
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/judgement/conclude.h>
 #include <CGAL/Crude_registration/internal/motion/Refinement.h>
 #include <CGAL/Crude_registration/internal/pipeline/User_candidates.h>
 #include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
@@ -25,11 +26,13 @@
 
 #include <CGAL/tags.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -108,12 +111,43 @@ Candidate_factory candidate_factory(const Generator& generator, const Scan<Kerne
 }
 
 template <class ConcurrencyTag, class Kernel, class Generator>
+Registration_outcome outcome_of(const Scan<Kernel>& source, const Scan<Kernel>& target, const Generator& generator,
+                                Run_control& control)
+{
+  return register_reduced_scans(source.reduced(), target.reduced(),
+                                candidate_factory<ConcurrencyTag>(generator, source, target),
+                                execution<ConcurrencyTag>(), control);
+}
+
+// Where nothing tells from which side a scan was seen, both are tried, until a motion is certain. The most probable one
+// counts; what other sides bring are its rivals.
+template <class ConcurrencyTag, class Kernel, class Generator>
 Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
                                            const Generator& generator, Run_control& control)
 {
-  return to_result<Kernel>(register_reduced_scans(source.reduced(), target.reduced(),
-                                                  candidate_factory<ConcurrencyTag>(generator, source, target),
-                                                  execution<ConcurrencyTag>(), control));
+  std::vector<std::pair<const Scan<Kernel>*, const Scan<Kernel>*>> sides = {{&source, &target}};
+  const Scan<Kernel>*other_source = source.other_side(), *other_target = target.other_side();
+  if (other_target) sides.push_back({&source, other_target});
+  if (other_source) sides.push_back({other_source, &target});
+  // The same for source and target exchanged.
+  if (sides.size() == 3 && are_swapped(source.reduced(), target.reduced())) std::swap(sides[1], sides[2]);
+  if (other_source && other_target) sides.push_back({other_source, other_target});
+  const double extent = (std::min)(source.extent(), target.extent());
+  std::vector<Registration_outcome> outcomes; // the best one first
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    control.set_part(i, sides.size());
+    outcomes.push_back(outcome_of<ConcurrencyTag>(*sides[i].first, *sides[i].second, generator, control));
+    if (is_better(outcomes.back(), outcomes.front())) std::swap(outcomes.back(), outcomes.front());
+    const Verdict& verdict = outcomes.front().verdict;
+    if (control.is_stopped() || (verdict.status == REGISTERED && verdict.confidence >= certain)) break;
+  }
+  Registration_outcome& best = outcomes.front();
+  for (std::size_t i = 1; i < outcomes.size(); ++i) {
+    add_rival(outcomes[i], extent, best);
+    add_stages(outcomes[i], best);
+  }
+  if (control.is_stopped() && outcomes.size() > 1) best.verdict = interrupted(best.poses);
+  return to_result<Kernel>(best);
 }
 
 } // namespace internal

@@ -21,6 +21,8 @@
 #include <CGAL/Crude_registration/internal/matching/Proposed_motions.h>
 #include <CGAL/Crude_registration/internal/matching/extents.h>
 #include <CGAL/Crude_registration/internal/reduction/simplify_flat_scan.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation.h>
+#include <CGAL/Crude_registration/internal/sampling/flat_point_triangulation.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <array>
@@ -28,6 +30,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -129,6 +132,16 @@ public:
                                                              name.c_str(), "number_of_vertices");
     options.cell_size = internal::non_negative_parameter(np, internal_np::cell_size, 0, name.c_str(), "cell_size");
     scan.simplified = internal::simplify_flat_scan(dense, sensor, image, scan, options, control);
+  }
+
+  // The same for points, which are triangulated first.
+  template <class NamedParameters>
+  void prepare(const std::vector<internal::Vector>& points, const internal::Flat_sensor& sensor,
+               const NamedParameters& np, const std::string& name, internal::Run_control& control,
+               internal::Reduced_scan& scan) const
+  {
+    prepare(internal::flat_triangulation(points, sensor, internal::default_maximum_edge_ratio, control), sensor,
+            nullptr, np, name, control, scan);
   }
 
   std::unique_ptr<internal::Candidate_source> candidates(const internal::Reduced_scan& source,

@@ -84,7 +84,16 @@ public:
   // By the thread that made the control.
   void advance(double progress)
   {
-    if (m_is_watched) m_progress = progress;
+    if (m_is_watched) m_progress = (double(m_part) + progress) / double(m_parts);
+  }
+
+  // What follows is one part of the work, of so many that take as long.
+  void set_part(std::size_t part, std::size_t parts)
+  {
+    if (!m_is_watched) return; // the control of all that is not to be ended has no state
+    m_part = part;
+    m_parts = parts;
+    advance(0);
   }
 
 private:
@@ -92,6 +101,7 @@ private:
   bool m_is_limited = false, m_is_watched = false;
   Clock::time_point m_end, m_next_call;
   std::thread::id m_thread = std::this_thread::get_id();
+  std::size_t m_part = 0, m_parts = 1;
   double m_progress = 0;
   std::atomic<bool> m_is_stopped{false};
 };

@@ -58,7 +58,7 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, bool is_of_man
 inline Verdict interrupted(const std::vector<Judged_pose>& poses)
 {
   Verdict verdict;
-  const double confidence = poses.front().probability;
+  const double confidence = poses.empty() ? 0 : poses.front().probability;
   const bool is_plausible = confidence >= plausible;
   verdict.confidence = (std::min)(0.5, confidence); // a rival may be as good
   verdict.status = is_plausible ? AMBIGUOUS : NOT_REGISTERED;

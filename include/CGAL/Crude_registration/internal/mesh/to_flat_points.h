@@ -50,6 +50,25 @@ std::vector<Vector> to_flat_points(const PointRange& points, const PointMap& poi
   return result;
 }
 
+// The same of the normals of `n` points, or of none: an empty range.
+template <class NormalRange>
+std::vector<Vector> to_flat_normals(const NormalRange& normals, std::size_t n, const std::string& function,
+                                    const std::string& argument, Run_control& control = to_the_end())
+{
+  std::vector<Vector> result;
+  for (const auto& normal : normals) {
+    control.check(result.size());
+    result.push_back(to_vector(normal));
+    if (!result.back().allFinite())
+      throw std::invalid_argument(function + ": normal " + std::to_string(result.size() - 1) + " of " + argument +
+                                  " has a coordinate that is not finite");
+  }
+  if (!result.empty() && result.size() != n)
+    throw std::invalid_argument(function + ": " + argument + " has " + std::to_string(n) + " points, but " +
+                                std::to_string(result.size()) + " normals");
+  return result;
+}
+
 } // namespace internal
 } // namespace Crude_registration
 } // namespace CGAL

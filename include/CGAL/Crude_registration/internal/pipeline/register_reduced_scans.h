@@ -24,6 +24,8 @@
 #include <CGAL/Crude_registration/internal/motion/twist.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace CGAL {
@@ -49,6 +51,49 @@ struct Registration_outcome
     return is_swapped ? in_input.inverse() : in_input;
   }
 };
+
+// Is the one motion more probable than the other?
+inline bool is_better(const Registration_outcome& a, const Registration_outcome& b)
+{
+  if (a.poses.empty() || b.poses.empty()) return !a.poses.empty() && b.poses.empty();
+  return a.poses.front().log_odds > b.poses.front().log_odds;
+}
+
+// The best motion of another run, with other sides of the same scans, is a rival, unless it is the same. `extent`: of
+// the smaller scan. \pre `outcome` is the better one.
+inline void add_rival(const Registration_outcome& other, double extent, Registration_outcome& outcome)
+{
+  if (other.poses.empty() || outcome.poses.empty()) return;
+  const Rigid_motion motion = other.to_input(to_rigid_motion(other.poses.front().pose));
+  const Rigid_motion own =
+      outcome.target_frame * (outcome.is_swapped ? motion.inverse() : motion) * outcome.source_frame.inverse();
+  if (are_one(to_pose(own), outcome.poses.front().pose, float(extent))) return;
+  // Where p = 1 / (1 + all other odds over those of the motion), one more is in the sum.
+  double& confidence = outcome.verdict.confidence;
+  if (!(confidence > 0)) return;
+  confidence = 1 / (1 / confidence + std::exp(other.poses.front().log_odds - outcome.poses.front().log_odds));
+  if (outcome.verdict.status != REGISTERED || confidence >= believed) return;
+  outcome.verdict.status = AMBIGUOUS;
+  outcome.verdict.reason = "several distinct motions bring the scans together equally well";
+}
+
+// Adds what another run, of the same scans, did to the record of the stages. They are reduced once.
+inline void add_stages(const Registration_outcome& other, Registration_outcome& outcome)
+{
+  for (std::size_t i = 1; i < other.stages.size() && i < outcome.stages.size(); ++i) {
+    outcome.stages[i].count += other.stages[i].count;
+    outcome.stages[i].seconds += other.stages[i].seconds;
+  }
+}
+
+// The scan with fewer surfels is looked for in the other one; equal ones are told apart by size, so that swapping the
+// arguments gives the inverse.
+inline bool are_swapped(const Reduced_scan& source, const Reduced_scan& target)
+{
+  if (source.coarse.surfels.size() != target.coarse.surfels.size())
+    return source.coarse.surfels.size() > target.coarse.surfels.size();
+  return source.extent > target.extent;
+}
 
 // a and b are source and target; the smaller one of them is looked for in the other.
 Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced_scan& b,

@@ -36,15 +36,6 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// The scan with fewer surfels is looked for in the other one; equal ones are told apart by size, so that swapping the
-// arguments gives the inverse.
-inline bool are_swapped(const Reduced_scan& source, const Reduced_scan& target)
-{
-  if (source.coarse.surfels.size() != target.coarse.surfels.size())
-    return source.coarse.surfels.size() > target.coarse.surfels.size();
-  return source.extent > target.extent;
-}
-
 // The square of the distance to the nearest surfel of a level; `nearest` is its index, or none. The field tells what is
 // nearest to the middle of a voxel: those around know what is nearest to the place.
 inline float nearest_surfel(const Surfel_level& level, const Vector_f& place, int& nearest)
@@ -174,8 +165,8 @@ Registration_outcome registration_of(const Reduced_scan& a, const Reduced_scan& 
   propose_and_judge(*candidates, judge, judging, control, [&] { return are_enough(judge); });
   outcome.poses = poses(judge, false);
   if (outcome.poses.empty()) {
-    outcome.verdict.reason = control.is_stopped() ? "interrupted: no overlap found so far"
-                                                  : "no overlap found: no motion brings any part of the scans together";
+    if (control.is_stopped()) outcome.verdict = interrupted(outcome.poses);
+    else outcome.verdict.reason = "no overlap found: no motion brings any part of the scans together";
   } else {
     bool is_of_many = false;
     if (!control.is_stopped() && probability_of_any(outcome.poses) < plausible) {

@@ -19,6 +19,7 @@
 #include <CGAL/Crude_registration/internal/base/compiled.h>
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
+#include <CGAL/Crude_registration/internal/sampling/orient_points.h>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -28,6 +29,9 @@ struct Reduction_parameters
 {
   double fine_surfels = 15000;
   double coarse_surfels = 1800;
+  // Of a scan of few samples:
+  double fewest_fine_surfels = 1000;
+  double fewest_coarse_surfels = 500;
 };
 
 // Reduces a scan. The sensor is in the frame of the mesh.
@@ -35,6 +39,10 @@ struct Reduction_parameters
 // \throws Run_control::Stopped
 Reduced_scan reduce_scan(const Flat_mesh& mesh, const Flat_sensor& sensor, const Reduction_parameters& parameters = {},
                          Run_control& control = to_the_end());
+
+// The same of samples that no mesh joins.
+Reduced_scan reduce_scan(const Oriented_points& points, const Flat_sensor& sensor,
+                         const Reduction_parameters& parameters = {}, Run_control& control = to_the_end());
 
 } // namespace internal
 } // namespace Crude_registration

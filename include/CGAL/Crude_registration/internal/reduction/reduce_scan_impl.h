@@ -62,25 +62,28 @@ inline double hidden_share(const Depth_buffer& depths, const std::vector<Vector_
   return known == 0 ? 0 : double(hidden) / double(known);
 }
 
-CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
-                                                        const Reduction_parameters& parameters, Run_control& control)
+// The mean direction in which a sensor looks at points; null if it is not known.
+inline Vector mean_direction(const Flat_sensor& sensor, const std::vector<Vector>& points)
 {
-  Reduced_scan scan;
+  if (sensor.kind == Flat_sensor::ORTHOGRAPHIC) return sensor.vector;
   Vector direction = Vector::Zero();
-  if (sensor.kind == Flat_sensor::ORTHOGRAPHIC) direction = sensor.vector;
-  if (sensor.kind == Flat_sensor::PERSPECTIVE) {
-    for (const Vector& p : mesh.points) direction += unit_or_zero(p - sensor.vector);
-    direction = unit_or_zero(direction);
-  }
-  control.check();
-  const std::vector<double> areas = face_areas(mesh, control);
-  scan.own_from_input = scan_frame(mesh, areas, direction, control);
-  const Rigid_motion& own = scan.own_from_input;
-  const Vector size = extent_in_frame(mesh, own, control);
-  scan.extent = size.sum() / 3;
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.);
-  if (!(area > 0)) return scan;
+  if (sensor.kind == Flat_sensor::PERSPECTIVE)
+    for (const Vector& p : points) direction += unit_or_zero(p - sensor.vector);
+  return unit_or_zero(direction);
+}
 
+// A surface cuts about 1.5 cells of a cubic grid for each area of the square of their edge length.
+inline double cell_of_surfels(double area, double number)
+{
+  return std::sqrt(1.5 * area / number);
+}
+
+// All that follows the samples of a surface of the given area. `scan` has its frame and its extent.
+inline void reduce_samples(const Oriented_samples& samples, double area, const Flat_sensor& sensor,
+                           const Vector& direction, const Reduction_parameters& parameters, Run_control& control,
+                           Reduced_scan& scan)
+{
+  const Rigid_motion& own = scan.own_from_input;
   // What is not a surface but dust takes larger cells, until the surfels can be numbered.
   const auto grouped = [&](const std::vector<Vector_f>& p, const std::vector<Vector_f>& n, const std::vector<float>& w,
                            float cell) {
@@ -88,14 +91,17 @@ CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, c
     while (level.surfels.size() > Surfel_field::maximum_size) level = group_samples(p, n, w, cell *= 1.5f, control);
     return level;
   };
-  // A surface cuts about 1.5 cells of a cubic grid for each area of the square of their edge length.
-  const double finest = std::sqrt(1.5 * area / parameters.fine_surfels);
-  const Oriented_samples samples = samples_of_faces(mesh, areas, own, sensor, 0.5 * finest, control);
   scan.number_of_samples = samples.points.size();
-  if (samples.points.empty()) return scan;
+  if (samples.points.empty()) return;
   scan.spacing = std::sqrt(area / double(samples.points.size()));
-  const double fine = (std::max)(2 * scan.spacing, finest);
-  const double coarse = (std::max)(3.5 * scan.spacing, std::sqrt(1.5 * area / parameters.coarse_surfels));
+  // Cells of so many spacings leave some samples to be averaged; narrower ones where hardly a surfel would be left.
+  const auto cell_of_samples = [&](double spacings, double fewest) {
+    return (std::max)((std::min)(spacings * scan.spacing, cell_of_surfels(area, fewest)), scan.spacing);
+  };
+  const double fine =
+      (std::max)(cell_of_samples(2, parameters.fewest_fine_surfels), cell_of_surfels(area, parameters.fine_surfels));
+  const double coarse = (std::max)(cell_of_samples(3.5, parameters.fewest_coarse_surfels),
+                                   cell_of_surfels(area, parameters.coarse_surfels));
 
   scan.fine = grouped(samples.points, samples.normals, {}, float(fine));
   std::vector<Vector_f> points, normals;
@@ -128,6 +134,37 @@ CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, c
       if (hidden_share(depths, samples.points, float(0.1 * scan.extent)) < 0.02) scan.depths = std::move(depths);
     }
   }
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
+                                                        const Reduction_parameters& parameters, Run_control& control)
+{
+  Reduced_scan scan;
+  const Vector direction = mean_direction(sensor, mesh.points);
+  control.check();
+  const std::vector<double> areas = face_areas(mesh, control);
+  scan.own_from_input = scan_frame(mesh, areas, direction, control);
+  const Vector size = extent_in_frame(mesh, scan.own_from_input, control);
+  scan.extent = size.sum() / 3;
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.);
+  if (!(area > 0)) return scan;
+  const double distance = 0.5 * cell_of_surfels(area, parameters.fine_surfels);
+  const Oriented_samples samples = samples_of_faces(mesh, areas, scan.own_from_input, sensor, distance, control);
+  reduce_samples(samples, area, sensor, direction, parameters, control, scan);
+  return scan;
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Oriented_points& points, const Flat_sensor& sensor,
+                                                        const Reduction_parameters& parameters, Run_control& control)
+{
+  Reduced_scan scan;
+  const Vector direction = mean_direction(sensor, points.points);
+  scan.own_from_input = scan_frame(points, direction, control);
+  const Vector size = extent_in_frame(points, scan.own_from_input, control);
+  scan.extent = size.sum() / 3;
+  if (!(points.area > 0)) return scan;
+  reduce_samples(samples_of_points(points, scan.own_from_input, control), points.area, sensor, direction, parameters,
+                 control, scan);
   return scan;
 }
 

@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/sampling/orient_points.h>
 
 #include <Eigen/Geometry>
 
@@ -90,7 +91,6 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vecto
     }
     return samples;
   }
-  constexpr double grazing = 0.12;
   const std::vector<Vector> normals = vertex_normals(mesh, control);
   samples.points.reserve(mesh.points.size());
   samples.normals.reserve(mesh.points.size());
@@ -99,10 +99,24 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vecto
     if (normals[i].isZero()) continue;
     if (sensor.kind != Flat_sensor::UNKNOWN) {
       const Vector sight = sensor.towards(mesh.points[i]);
-      if (-sight.dot(normals[i]) < grazing * sight.norm()) continue;
+      if (-sight.dot(normals[i]) < grazing_cosine * sight.norm()) continue;
     }
     samples.points.push_back(own(mesh.points[i]).cast<float>());
     samples.normals.push_back(rotation * normals[i].cast<float>());
+  }
+  return samples;
+}
+
+// The points as samples in the frame of the scan's own.
+inline Oriented_samples samples_of_points(const Oriented_points& given, const Rigid_motion& own, Run_control& control)
+{
+  Oriented_samples samples;
+  samples.points.reserve(given.points.size());
+  samples.normals.reserve(given.points.size());
+  for (std::size_t i = 0; i < given.points.size(); ++i) {
+    control.check(i);
+    samples.points.push_back(own(given.points[i]).cast<float>());
+    samples.normals.push_back((own.rotation * given.normals[i]).cast<float>());
   }
   return samples;
 }

@@ -17,6 +17,7 @@
 #include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
+#include <CGAL/Crude_registration/internal/sampling/orient_points.h>
 #include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
 
 #include <algorithm>
@@ -40,6 +41,32 @@ inline Rigid_motion frame_of_axes(const Vector& x, const Vector& z, const Vector
   frame.rotation.row(2) = z;
   frame.translation = -(frame.rotation * origin);
   return frame;
+}
+
+// The frame of scan_frame() from the moments of a surface: its mean normal, its covariance, and the third moment along
+// an axis.
+template <class Skewness>
+Rigid_motion frame_of_moments(const Vector& normal, double area, const Matrix& covariance, const Vector& origin,
+                              const Skewness& skewness, const Vector& viewing_direction)
+{
+  Vector z = -unit_or_zero(viewing_direction);
+  if (z.isZero()) {
+    if (normal.norm() >= 0.1 * area) {
+      z = normal.normalized();
+    } else {
+      z = symmetric_eigen(covariance).vectors.col(0);
+      if (skewness(z) < 0) z = -z;
+    }
+  }
+  const Tangent_frame plane(z);
+  Curvature_tensor projected; // any symmetric form in a tangent frame
+  projected.uu = plane.u.dot(covariance * plane.u);
+  projected.uv = plane.u.dot(covariance * plane.v);
+  projected.vv = plane.v.dot(covariance * plane.v);
+  const std::array<double, 2> major = projected.direction_of_maximum();
+  Vector x = major[0] * plane.u + major[1] * plane.v;
+  if (skewness(x) < 0) x = -x;
+  return frame_of_axes(x, z, origin);
 }
 
 // The motion from a scan's coordinates into a frame of the scan's own, which moves with the scan: computed from a moved
@@ -84,29 +111,44 @@ inline Rigid_motion scan_frame(const Flat_mesh& mesh, const std::vector<double>&
     return moment;
   };
 
-  Vector z = -unit_or_zero(viewing_direction);
-  if (z.isZero()) {
-    if (normal.norm() >= 0.1 * area) {
-      z = normal.normalized();
-    } else {
-      z = symmetric_eigen(covariance).vectors.col(0);
-      if (skewness(z) < 0) z = -z;
-    }
-  }
-  const Tangent_frame plane(z);
-  Curvature_tensor projected; // any symmetric form in a tangent frame
-  projected.uu = plane.u.dot(covariance * plane.u);
-  projected.uv = plane.u.dot(covariance * plane.v);
-  projected.vv = plane.v.dot(covariance * plane.v);
-  const std::array<double, 2> major = projected.direction_of_maximum();
-  Vector x = major[0] * plane.u + major[1] * plane.v;
-  if (skewness(x) < 0) x = -x;
-  return frame_of_axes(x, z, centre + centroid);
+  return frame_of_moments(normal, area, covariance, centre + centroid, skewness, viewing_direction);
 }
 
 inline Rigid_motion scan_frame(const Flat_mesh& mesh, const Vector& viewing_direction = Vector::Zero())
 {
   return scan_frame(mesh, face_areas(mesh), viewing_direction);
+}
+
+// The same of a surface that is given by samples of even density.
+inline Rigid_motion scan_frame(const Oriented_points& samples, const Vector& viewing_direction,
+                               Run_control& control = to_the_end())
+{
+  const std::vector<Vector>& points = samples.points;
+  const Vector centre = centre_of_box(points);
+  if (points.empty()) return frame_of_axes(Vector::UnitX(), Vector::UnitZ(), centre);
+  const double weight = 1 / double(points.size());
+  Vector normal = Vector::Zero(), centroid = Vector::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    control.check(i);
+    normal += weight * samples.normals[i];
+    centroid += weight * (points[i] - centre);
+  }
+  Matrix covariance = Matrix::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    control.check(i);
+    const Vector d = points[i] - centre - centroid;
+    covariance += weight * (d * d.transpose());
+  }
+  const auto skewness = [&](const Vector& axis) {
+    double moment = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      control.check(i);
+      const double t = axis.dot(points[i] - centre - centroid);
+      moment += t * t * t;
+    }
+    return moment;
+  };
+  return frame_of_moments(normal, 1, covariance, centre + centroid, skewness, viewing_direction);
 }
 
 // The edge lengths, along the axes of `frame`, of the box that contains the vertices of the faces.
@@ -125,6 +167,18 @@ inline Vector extent_in_frame(const Flat_mesh& mesh, const Rigid_motion& frame, 
     high = high.cwiseMax(p);
   }
   return mesh.faces.empty() ? Vector(Vector::Zero()) : Vector(high - low);
+}
+
+inline Vector extent_in_frame(const Oriented_points& samples, const Rigid_motion& frame, Run_control& control)
+{
+  Vector low = Vector::Constant((std::numeric_limits<double>::max)()), high = -low;
+  for (std::size_t i = 0; i < samples.points.size(); ++i) {
+    control.check(i);
+    const Vector p = frame(samples.points[i]);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return samples.points.empty() ? Vector(Vector::Zero()) : Vector(high - low);
 }
 
 } // namespace internal

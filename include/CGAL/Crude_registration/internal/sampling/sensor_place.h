@@ -1,0 +1,149 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Author(s)     : The Crude_registration authors
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_SENSOR_PLACE_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_SENSOR_PLACE_H
+
+// The place from where a surface of unknown origin may have been seen.
+
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
+#include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
+#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/base/Run_control.h>
+#include <CGAL/Crude_registration/internal/sampling/Lines_of_sight.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Looks for the place from where a surface was seen, a room by a camera that moved in it, say, or a body by a scanner
+// in front of it: most of the surface is visible from there. Places are tried all around and within.
+class Sensor_place
+{
+public:
+  Sensor_place(const Lines_of_sight& lines, Run_control& control)
+      : m_lines(lines), m_control(control), m_samples(shuffled(lines.size(), 4))
+  {}
+
+  std::optional<Vector> find()
+  {
+    if (!m_lines.has_grid() || m_samples.empty()) return std::nullopt;
+    measure();
+    std::vector<Place> places = all_places();
+    // The fewer places are left, the more samples are asked: about as many lines in each round.
+    keep_best(places, 0, 25, 200);
+    keep_best(places, 25, 75, 60);
+    keep_best(places, 100, 250, 20);
+    keep_best(places, 350, 1000, places.size());
+    // A body seen from one side is as visible from behind: the surface bulges towards the sensor, if anywhere.
+    constexpr double all = 0.95, most = 0.7, half_of_the_sphere = 0.5;
+    const Place& best = places.front();
+    for (const Place& p : places)
+      if (p.visible >= all && bulge(p.position) > 0) return p.position;
+    if (best.visible < most || coverage(best.position) > half_of_the_sphere) return std::nullopt;
+    return best.position;
+  }
+
+private:
+  struct Place
+  {
+    Vector position;
+    double visible; // share of the samples
+  };
+
+  void measure()
+  {
+    m_low = m_high = m_lines.point(0);
+    Vector sum = Vector::Zero();
+    for (std::size_t i = 0; i < m_lines.size(); ++i) {
+      m_low = m_low.cwiseMin(m_lines.point(i));
+      m_high = m_high.cwiseMax(m_lines.point(i));
+      sum += m_lines.point(i);
+    }
+    m_centroid = sum / double(m_lines.size());
+  }
+
+  // Up to one and a half extents from the centre along each axis, denser near it.
+  std::vector<Place> all_places() const
+  {
+    constexpr std::array<double, 9> steps = {-1.5, -0.85, -0.375, -0.1, 0, 0.1, 0.375, 0.85, 1.5};
+    const double extent = (m_high - m_low).maxCoeff();
+    const Vector centre = (m_low + m_high) / 2;
+    std::vector<Place> places;
+    for (const double x : steps)
+      for (const double y : steps)
+        for (const double z : steps) places.push_back({centre + extent * Vector(x, y, z), 0});
+    return places;
+  }
+
+  // Leaves the places from where most of `n` samples are visible: from the one numbered `from` on, around the end.
+  void keep_best(std::vector<Place>& places, std::size_t from, std::size_t n, std::size_t kept) const
+  {
+    n = (std::min)(n, m_samples.size());
+    for (Place& p : places) {
+      m_control.check();
+      double visible = 0, seen = 0;
+      for (std::size_t i = from; i < from + n; ++i) {
+        const int v = m_lines.visibility(std::size_t(m_samples[i % m_samples.size()]), p.position);
+        visible += v > 0;
+        seen += v != 0;
+      }
+      p.visible = seen > 0 ? visible / seen : 0;
+    }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.visible > b.visible; });
+    places.resize((std::min)(kept, places.size()));
+  }
+
+  // Six times the volume, over that of a cell's cube or so, between the surface, turned to the place, and the centroid.
+  double bulge(const Vector& place) const
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < m_lines.size(); ++i) {
+      const Vector &p = m_lines.point(i), &n = m_lines.normal(i);
+      sum += (n.dot(place - p) < 0 ? -1 : 1) * n.dot(p - m_centroid);
+    }
+    return sum;
+  }
+
+  // The share of the directions from the place in which there is surface.
+  double coverage(const Vector& place) const
+  {
+    const Counter_random random(6);
+    constexpr std::uint64_t n = 500;
+    const double far = 4 * ((place - m_centroid).norm() + (m_high - m_low).norm());
+    std::size_t hits = 0;
+    for (std::uint64_t i = 0; i < n; ++i) {
+      const Vector d = unit_or_zero(Vector(random.normal(3 * i), random.normal(3 * i + 1), random.normal(3 * i + 2)));
+      hits += !m_lines.is_free(place, d, far);
+    }
+    return double(hits) / double(n);
+  }
+
+  const Lines_of_sight& m_lines;
+  Run_control& m_control;
+  const std::vector<std::int32_t> m_samples; // in an order without pattern
+  Vector m_low, m_high, m_centroid;
+};
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_SAMPLING_SENSOR_PLACE_H
