@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The types of the module that hold no more than values."""
+
+from __future__ import annotations
+
+import enum
+from typing import NamedTuple
+
+import numpy
+import numpy.typing
+
+
+class RegistrationStatus(enum.Enum):
+    """What came out of a registration."""
+
+    REGISTERED = "registered"
+    """One motion explains the scans, and it is certain."""
+    AMBIGUOUS = "ambiguous"
+    """Several distinct motions, or a family of motions, explain the scans about as well."""
+    NOT_REGISTERED = "not_registered"
+    """No motion was found that can be believed."""
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class ScanKind(enum.Enum):
+    """What a ScanFile holds."""
+
+    RANGE_IMAGE = "range image"
+    """Samples in the cells of a grid, and the sensor if it is known."""
+    MESH = "mesh"
+    """Triangles."""
+    POINTS = "points"
+    """Points, and nothing that joins them."""
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class Mesh(NamedTuple):
+    """A triangle mesh."""
+
+    points: numpy.typing.NDArray[numpy.float64]
+    """(n, 3): the vertices, in the unit and the frame of the scan that the mesh is of."""
+    faces: numpy.typing.NDArray[numpy.int32]
+    """(m, 3): rows of points, counterclockwise seen from outside or from the sensor."""
+
+
+class ScoredMotion(NamedTuple):
+    """A motion that was considered, and how good it is."""
+
+    T_target_source: numpy.typing.NDArray[numpy.float64]
+    """(4, 4): maps the source into the frame of the target."""
+    score: float
+    """The larger, the better; comparable within one result only."""
+
+
+class Stage(NamedTuple):
+    """What a stage of a registration did."""
+
+    name: str
+    count: int
+    """How many items it worked on."""
+    seconds: float
+    """How long that took."""
+
+
+class RefinedMotion(NamedTuple):
+    """What refine() returns."""
+
+    T_target_source: numpy.typing.NDArray[numpy.float64]
+    """(4, 4): maps the source into the frame of the target."""
+    iterations: int
+    is_converged: bool
+    """Whether the last step was shorter than the tolerance."""
+    sampling_distance: float
+    """The distance of neighbouring samples that was used, in the unit of the coordinates."""
+    residual: float
+    """RMS distance of corresponding points along their normals, in sampling distances."""
+    overlap: float
+    """Share of the source's vertices on which the target lies, from 0 to 1."""
+    number_of_free_motions: int
+    """How many independent small motions the surfaces leave free: 3 on a plane, 0 where the motion is determined."""
+    covariance: numpy.typing.NDArray[numpy.float64]
+    """(6, 6): of the small motion that follows, turns about the target's axes in radians before displacements in the
+    unit of the coordinates."""
+
+
+class PreparationInterrupted(RuntimeError):
+    """Raised by Scan() where its time budget or its progress function ends it: no part of a scan is of use."""
+
+
+for _type in (RegistrationStatus, ScanKind, Mesh, ScoredMotion, Stage, RefinedMotion, PreparationInterrupted):
+    _type.__module__ = "crude_registration"
+del _type
