@@ -20,6 +20,10 @@ if(CRUDE_REGISTRATION_PYTHON)
   set(Python_EXECUTABLE ${CRUDE_REGISTRATION_PYTHON})
   find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
   if(Python_FOUND)
+    if(NOT pybind11_DIR) # of pip's package
+      execute_process(COMMAND ${CRUDE_REGISTRATION_PYTHON} -m pybind11 --cmakedir
+        OUTPUT_VARIABLE pybind11_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    endif()
     find_package(pybind11 2.10 QUIET NO_MODULE)
     find_package(nlohmann_json 3.9 QUIET)
     if(pybind11_FOUND AND nlohmann_json_FOUND)

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import enum
-from typing import NamedTuple
+import typing
 
 import numpy
 import numpy.typing
@@ -38,7 +39,7 @@ class ScanKind(enum.Enum):
         return self.value
 
 
-class Mesh(NamedTuple):
+class Mesh(typing.NamedTuple):
     """A triangle mesh."""
 
     points: numpy.typing.NDArray[numpy.float64]
@@ -47,7 +48,7 @@ class Mesh(NamedTuple):
     """(m, 3): rows of points, counterclockwise seen from outside or from the sensor."""
 
 
-class ScoredMotion(NamedTuple):
+class ScoredMotion(typing.NamedTuple):
     """A motion that was considered, and how good it is."""
 
     T_target_source: numpy.typing.NDArray[numpy.float64]
@@ -56,7 +57,8 @@ class ScoredMotion(NamedTuple):
     """The larger, the better; comparable within one result only."""
 
 
-class Stage(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class Stage:
     """What a stage of a registration did."""
 
     name: str
@@ -66,7 +68,7 @@ class Stage(NamedTuple):
     """How long that took."""
 
 
-class RefinedMotion(NamedTuple):
+class RefinedMotion(typing.NamedTuple):
     """What refine() returns."""
 
     T_target_source: numpy.typing.NDArray[numpy.float64]

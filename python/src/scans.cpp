@@ -11,6 +11,7 @@
 #include "input.h"
 #include "prepare.h"
 
+#include <CGAL/Crude_registration/IO/save_scan.h>
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/IO/write_range_image.h>
 
@@ -107,6 +108,48 @@ std::string text_of(const Scan& scan)
   return text.str();
 }
 
+// The path of a file that is written or read. \throws py::type_error
+std::string needed_path(const py::object& object, const char* function)
+{
+  const std::optional<std::string> path = to_path(object);
+  if (!path) throw py::type_error(std::string(function) + ": path: the name of a file is needed");
+  return *path;
+}
+
+void save(const Scan& scan, const py::object& object)
+{
+  const std::string path = needed_path(object, "save");
+  py::gil_scoped_release unlocked;
+  CR::save_scan(path, scan);
+}
+
+std::shared_ptr<Scan> load(const py::object& object)
+{
+  const std::string path = needed_path(object, "load");
+  py::gil_scoped_release unlocked;
+  return std::make_shared<Scan>(CR::load_scan<Kernel>(path));
+}
+
+py::bytes bytes_of(const Scan& scan)
+{
+  std::string bytes;
+  {
+    py::gil_scoped_release unlocked;
+    bytes = CR::scan_to_bytes(scan);
+  }
+  return py::bytes(bytes);
+}
+
+std::shared_ptr<Scan> scan_of(const py::bytes& object)
+{
+  const std::string bytes = object;
+  try {
+    return std::make_shared<Scan>(CR::scan_from_bytes<Kernel>(bytes, "Scan.from_bytes"));
+  } catch (const CR::IO_error& e) {
+    throw py::value_error(e.what()); // there is no file
+  }
+}
+
 const char* kind_name(const Scan_file& file)
 {
   return file.kind == Scan_file::RANGE_IMAGE ? "RANGE_IMAGE" : file.kind == Scan_file::MESH ? "MESH" : "POINTS";
@@ -135,16 +178,15 @@ py::object three_numbers(const Three& three)
 
 void write_scan(const Scan_file& file, const py::object& object)
 {
-  const std::optional<std::string> path = to_path(object);
-  if (!path) throw py::type_error("write: path: the name of a file is needed");
+  const std::string path = needed_path(object, "write");
   py::gil_scoped_release unlocked;
   if (file.kind == Scan_file::RANGE_IMAGE) {
-    CR::write_range_image(*path, file.image);
+    CR::write_range_image(path, file.image);
     return;
   }
   Surface mesh = file.mesh;
   for (const Point& q : file.points) mesh.add_vertex(q);
-  CR::write_file(*path, [&](std::ostream& out) {
+  CR::write_file(path, [&](std::ostream& out) {
     CGAL::IO::set_binary_mode(out);
     CGAL::IO::write_PLY(out, mesh);
   });
@@ -187,6 +229,19 @@ void bind_scans(py::module_& module)
   scan.def_property_readonly("has_free_space", &Scan::has_free_space,
                              "Whether free space is known, from the sensor or along the mean normal.");
   scan.def("__repr__", [](const Scan& s) { return text_of(s); });
+  scan.def("to_bytes", &bytes_of,
+           "to_bytes(self)\n--\n\nThe scan as some megabytes, from which from_bytes() makes the same scan, bit by bit, "
+           "on any machine.\nThe same scan gives the same bytes. They hold a version and a checksum; a pickled Scan is "
+           "these bytes.");
+  scan.def_static("from_bytes", &scan_of, py::arg("bytes"),
+                  "from_bytes(bytes)\n--\n\nThe scan that to_bytes() was called of. Raises ValueError where the bytes "
+                  "are cut off or altered, or of\nanother version of the format.");
+  scan.def("save", &save, py::arg("path"),
+           "save(self, path)\n--\n\nWrites the bytes to a file, whole or not at all. Raises OSError.");
+  scan.def_static("load", &load, py::arg("path"),
+                  "load(path)\n--\n\nReads a scan from a file that save() wrote. Raises OSError where it cannot be "
+                  "read, is cut off or altered,\nor is of another version of the format.");
+  scan.def(py::pickle(&bytes_of, &scan_of));
 
   py::class_<Scan_file, std::shared_ptr<Scan_file>> file(module, "ScanFile", scan_file_doc);
   file.attr("__module__") = "crude_registration";
@@ -233,10 +288,9 @@ void bind_scans(py::module_& module)
   module.def(
       "read_scan",
       [](const py::object& object) {
-        const std::optional<std::string> path = to_path(object);
-        if (!path) throw py::type_error("read_scan: path: the name of a file is needed");
+        const std::string path = needed_path(object, "read_scan");
         py::gil_scoped_release unlocked;
-        return std::make_shared<Scan_file>(CR::read_scan<Kernel>(*path));
+        return std::make_shared<Scan_file>(CR::read_scan<Kernel>(path));
       },
       py::arg("path"), read_scan_doc);
 }

@@ -267,6 +267,7 @@ public:
 
   /// \cond SKIP_IN_MANUAL
   const internal::Reduced_scan& reduced() const { return m_reduced; }
+  explicit Scan(internal::Reduced_scan reduced) : m_reduced(std::move(reduced)) {}
 
   // As a part of a longer run. \throws internal::Run_control::Stopped
   template <class FaceGraph, class NamedParameters, class Generator>
