@@ -54,7 +54,9 @@ class ScoredMotion(typing.NamedTuple):
     T_target_source: numpy.typing.NDArray[numpy.float64]
     """(4, 4): maps the source into the frame of the target."""
     score: float
-    """The larger, the better; comparable within one result only."""
+    """The natural logarithm of the odds that it is right: what the evidence says of it alone, whatever its rivals."""
+    probability: float
+    """That it is right, among all motions that were considered and none of them; of the answer its confidence."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -212,8 +212,8 @@ py::list motions(const Result& result, bool with_answer)
   const py::object type = type_named("ScoredMotion");
   py::list list;
   if (with_answer && result.status() != CR::NOT_REGISTERED)
-    list.append(type(to_matrix(result.transformation()), result.score()));
-  for (const auto& m : result.runners_up()) list.append(type(to_matrix(m.transformation), m.score));
+    list.append(type(to_matrix(result.transformation()), result.score(), result.confidence()));
+  for (const auto& m : result.runners_up()) list.append(type(to_matrix(m.transformation), m.score, m.probability));
   return list;
 }
 
@@ -237,7 +237,8 @@ constexpr int result_version = 1; // of the state that is pickled
 py::tuple state_of(const Result& r)
 {
   py::list runners_up, statistics;
-  for (const auto& m : r.runners_up()) runners_up.append(py::make_tuple(to_matrix(m.transformation), m.score));
+  for (const auto& m : r.runners_up())
+    runners_up.append(py::make_tuple(to_matrix(m.transformation), m.score, m.probability));
   for (const auto& s : r.statistics()) statistics.append(py::make_tuple(s.name, s.count, s.seconds));
   return py::make_tuple(result_version, int(r.status()), r.reason(), to_matrix(r.transformation()),
                         to_matrix(r.crude_transformation()), r.confidence(), r.score(), r.overlap(), r.residual(),
@@ -267,8 +268,9 @@ Result from_state(const py::tuple& state)
   parts.covariance = state[12].cast<Result::Covariance>();
   parts.free_motions = state[13].cast<std::vector<std::string>>();
   for (const py::handle item : state[14]) {
-    const auto pair = item.cast<py::tuple>();
-    parts.runners_up.push_back({to_motion(pair[0], "RegistrationResult: runners_up"), pair[1].cast<double>()});
+    const auto motion = item.cast<py::tuple>();
+    parts.runners_up.push_back(
+        {to_motion(motion[0], "RegistrationResult: runners_up"), motion[1].cast<double>(), motion[2].cast<double>()});
   }
   for (const py::handle item : state[15]) {
     const auto stage = item.cast<py::tuple>();
@@ -304,7 +306,8 @@ void bind_registration(py::module_& module)
       "crude_T_target_source", [](const Result& r) { return to_matrix(r.crude_transformation()); },
       "(4, 4): the motion before it was refined.");
   add("confidence", &Result::confidence, "How certain T_target_source is, from 0 to 1.");
-  add("score", &Result::score, "How good it is; comparable with the scores of poses only.");
+  add("score", &Result::score,
+      "The natural logarithm of the odds that T_target_source is right: what the evidence says of it alone.");
   add("overlap", &Result::overlap, "The share of the source's surface that lies on the target's, from 0 to 1.");
   add("residual", &Result::residual,
       "RMS distance of the scans in their overlap, along normals, in sampling distances.");

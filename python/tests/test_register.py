@@ -102,7 +102,8 @@ def test_a_result_says_what_it_is(views):
     assert np.array_equal(result.covariance, result.covariance.T)
     assert np.all(np.linalg.eigvalsh(result.covariance) >= -1e-18)
     assert np.array_equal(result.poses[0].T_target_source, result.T_target_source)
-    assert result.poses[0].score == result.score
+    assert result.poses[0].score == result.score and result.poses[0].probability == result.confidence
+    assert sum(pose.probability for pose in result.poses) < 1 + 1e-9
     assert len(result.poses) == 1 + len(result.runners_up)
     assert all(a.score >= b.score for a, b in zip(result.poses, result.poses[1:]))
     assert [s.name for s in result.statistics][0] == "reduce"
