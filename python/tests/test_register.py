@@ -81,6 +81,10 @@ def test_meshes_and_points_give_the_answers_of_the_program(views, tmp_path, crud
     )
     answer = cr.register(meshes[0].points, meshes[1].points, viewpoint=(0, 0, 9))
     assert json.loads(answer.to_json()) == expected
+    expected = without_files(
+        crude_register("register", tmp_path / "points_0.xyz", tmp_path / "points_1.xyz", "--json", "--method", "trihedra")
+    )
+    assert json.loads(cr.register(meshes[0].points, meshes[1].points, method="trihedra").to_json()) == expected
     same = cr.register(meshes[0].points, meshes[1].points, source_viewpoint=[0, 0, 9], target_viewpoint=np.array([0, 0, 9]))
     assert same.to_json() == answer.to_json()
 
