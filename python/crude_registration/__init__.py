@@ -15,6 +15,7 @@ from ._core import (
     RegistrationResult,
     Scan,
     ScanFile,
+    judge,
     make_statue,
     read_scan,
     refine,
@@ -24,6 +25,8 @@ from ._core import (
 )
 from ._types import (
     Mesh,
+    MotionJudgement,
+    MotionStatus,
     PreparationInterrupted,
     RefinedMotion,
     RegistrationStatus,
@@ -34,6 +37,8 @@ from ._types import (
 
 __all__ = [
     "Mesh",
+    "MotionJudgement",
+    "MotionStatus",
     "PreparationInterrupted",
     "RefinedMotion",
     "RegistrationResult",
@@ -43,6 +48,7 @@ __all__ = [
     "ScanKind",
     "ScoredMotion",
     "Stage",
+    "judge",
     "make_statue",
     "read_scan",
     "refine",

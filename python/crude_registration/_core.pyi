@@ -7,7 +7,7 @@ from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
 import numpy
 import numpy.typing
 
-from ._types import Mesh, RefinedMotion, RegistrationStatus, ScanKind, ScoredMotion, Stage
+from ._types import Mesh, MotionJudgement, RefinedMotion, RegistrationStatus, ScanKind, ScoredMotion, Stage
 
 _Floats = numpy.typing.NDArray[numpy.float64]
 _Path = Union[str, bytes, "os.PathLike[Any]"]
@@ -128,6 +128,23 @@ def register(
     parallel: bool = True,
     progress: Optional[_Progress] = None,
 ) -> RegistrationResult: ...
+def judge(
+    source: _Scan,
+    target: _Scan,
+    T_target_source: numpy.typing.ArrayLike,
+    *,
+    viewpoint: Optional[_Three] = None,
+    source_viewpoint: Optional[_Three] = None,
+    target_viewpoint: Optional[_Three] = None,
+    source_viewing_direction: Optional[_Three] = None,
+    target_viewing_direction: Optional[_Three] = None,
+    method: str = "pairs",
+    minimum_extent: float = 0.0,
+    maximum_extent: float = 0.3,
+    time_budget: Optional[float] = None,
+    parallel: bool = True,
+    progress: Optional[_Progress] = None,
+) -> MotionJudgement: ...
 def refine(
     source: _Samples,
     target: _Samples,

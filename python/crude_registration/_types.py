@@ -10,6 +10,9 @@ import typing
 import numpy
 import numpy.typing
 
+if typing.TYPE_CHECKING:
+    from ._core import RegistrationResult
+
 
 class RegistrationStatus(enum.Enum):
     """What came out of a registration."""
@@ -20,6 +23,20 @@ class RegistrationStatus(enum.Enum):
     """Several distinct motions, or a family of motions, explain the scans about as well."""
     NOT_REGISTERED = "not_registered"
     """No motion was found that can be believed."""
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class MotionStatus(enum.Enum):
+    """What is to be said of a motion that somebody found."""
+
+    RIGHT = "right"
+    """It brings the scans together, to within a sampling distance."""
+    REFINABLE = "refinable"
+    """It does not, but what refinement makes of it does."""
+    WRONG = "wrong"
+    """Neither it nor what refinement makes of it can be told from chance."""
 
     def __str__(self) -> str:
         return self.value
@@ -91,10 +108,32 @@ class RefinedMotion(typing.NamedTuple):
     unit of the coordinates."""
 
 
+class MotionJudgement(typing.NamedTuple):
+    """What judge() says of a motion."""
+
+    status: MotionStatus
+    confidence: float
+    """The probability that what refinement makes of the motion is right, from 0 to 1."""
+    displacement: float
+    """How far the motion is from that: RMS over the part of the source that overlaps, in sampling distances."""
+    refined: RegistrationResult
+    """What refinement makes of the motion, as if a registration had found it; its rivals are runners-up."""
+
+
 class PreparationInterrupted(RuntimeError):
     """Raised by Scan() where its time budget or its progress function ends it: no part of a scan is of use."""
 
 
-for _type in (RegistrationStatus, ScanKind, Mesh, ScoredMotion, Stage, RefinedMotion, PreparationInterrupted):
+for _type in (
+    RegistrationStatus,
+    MotionStatus,
+    ScanKind,
+    Mesh,
+    ScoredMotion,
+    Stage,
+    RefinedMotion,
+    MotionJudgement,
+    PreparationInterrupted,
+):
     _type.__module__ = "crude_registration"
 del _type

@@ -9,7 +9,7 @@
 
 #include "arrays.h"
 #include "json.h"
-#include "prepare.h"
+#include "two_scans.h"
 
 #include <CGAL/Crude_registration/register_scans.h>
 
@@ -19,11 +19,6 @@
 #include <pybind11/stl.h>
 
 #include <array>
-#include <atomic>
-#include <chrono>
-#include <cmath>
-#include <exception>
-#include <future>
 #include <locale>
 #include <memory>
 #include <optional>
@@ -75,58 +70,6 @@ Ctrl-C ends a run of the main thread within a tenth of a second. Other threads o
 True
 )";
 
-// What a program may do while another thread prepares a scan: end it.
-struct Stop_flag
-{
-  std::atomic<bool> is_set{false};
-
-  void progress(double) {}
-  bool go_further() const { return !is_set; }
-};
-
-using Prepared_scans = std::array<std::shared_ptr<const Scan>, 2>;
-
-// The one in a thread of its own, if there are two to prepare. Without the lock. Of the errors of both that of the
-// first is passed on, whichever comes first.
-Prepared_scans prepare_both(const std::array<Scan_input, 2>& inputs, const std::array<Sensor_arguments, 2>& sensors,
-                            const Method& method, const Time_budget& budget, Interruption& interruption, bool parallel)
-{
-  if (!parallel || inputs[0].scan || inputs[1].scan)
-    return {prepared(inputs[0], sensors[0], method, budget, interruption),
-            prepared(inputs[1], sensors[1], method, budget, interruption)};
-  Stop_flag flag;
-  std::future<std::shared_ptr<const Scan>> second =
-      std::async(std::launch::async, [&] { return prepared(inputs[1], sensors[1], method, budget, flag); });
-  std::shared_ptr<const Scan> first;
-  try {
-    first = prepared(inputs[0], sensors[0], method, budget, interruption);
-    while (second.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready)
-      if (!interruption.go_further()) throw CR::Preparation_interrupted(inputs[1].name);
-  } catch (...) {
-    flag.is_set = true;
-    second.wait();
-    throw;
-  }
-  return {first, second.get()};
-}
-
-// Which sensor each side has. \throws py::value_error
-std::array<Sensor_arguments, 2> sensors_of(const std::array<Scan_input, 2>& inputs,
-                                           const std::array<Sensor_arguments, 2>& own, const py::object& viewpoint)
-{
-  std::array<Sensor_arguments, 2> sensors = own;
-  const std::optional<Point> both = to_point(viewpoint, "register: viewpoint");
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::string side = i == 0 ? "source" : "target";
-    if (both && own[i].is_given())
-      throw py::value_error("register: viewpoint is that of both scans, but the one of the " + side + " is given, too");
-    if (both) sensors[i].viewpoint = both;
-    if (inputs[i].scan && sensors[i].is_given())
-      throw py::value_error("register: the " + side + " is a Scan, which knows its sensor; none is to be given");
-  }
-  return sensors;
-}
-
 Result interrupted_result(const std::string& reason)
 {
   Result::Parts parts;
@@ -134,12 +77,12 @@ Result interrupted_result(const std::string& reason)
   return Result(std::move(parts));
 }
 
-Result run(const std::array<Scan_input, 2>& inputs, const std::array<Sensor_arguments, 2>& sensors,
-           const Method& method, const Time_budget& budget, Interruption& interruption, bool parallel)
+Result run(const Two_scans& both, const Method& method, const Time_budget& budget, Interruption& interruption,
+           bool parallel)
 {
-  Prepared_scans scans;
+  std::array<std::shared_ptr<const Scan>, 2> scans;
   try {
-    scans = prepare_both(inputs, sensors, method, budget, interruption, parallel);
+    scans = both.prepared(method, budget, interruption, parallel);
   } catch (const CR::Preparation_interrupted& e) {
     return interrupted_result(e.what());
   }
@@ -159,14 +102,9 @@ Result register_any(const py::object& source, const py::object& target, const py
                     const std::optional<double>& time_budget, bool parallel, const py::object& progress)
 {
   const Time_budget budget(time_budget, "register");
-  const std::array<Scan_input, 2> inputs = {to_input(source, py::none(), "register: source"),
-                                            to_input(target, py::none(), "register: target")};
-  const std::array<Sensor_arguments, 2> own = {
-      Sensor_arguments{to_point(source_viewpoint, "register: source_viewpoint"),
-                       to_vector(source_viewing_direction, "register: source_viewing_direction")},
-      Sensor_arguments{to_point(target_viewpoint, "register: target_viewpoint"),
-                       to_vector(target_viewing_direction, "register: target_viewing_direction")}};
-  const std::array<Sensor_arguments, 2> sensors = sensors_of(inputs, own, viewpoint);
+  const Two_scans both(
+      source, target,
+      {viewpoint, source_viewpoint, target_viewpoint, source_viewing_direction, target_viewing_direction}, "register");
   const Method method({method_name,
                        minimum_extent,
                        maximum_extent,
@@ -176,7 +114,7 @@ Result register_any(const py::object& source, const py::object& target, const py
                       "register");
   Interruption interruption(progress);
   py::gil_scoped_release unlocked;
-  return run(inputs, sensors, method, budget, interruption, parallel);
+  return run(both, method, budget, interruption, parallel);
 }
 
 py::object type_named(const char* name)

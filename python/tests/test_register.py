@@ -265,3 +265,25 @@ def test_refine_finds_the_true_motion(views):
         cr.refine(views[0].image, views[1].image, skew)
     with pytest.raises(TypeError, match="Scan"):
         cr.refine(cr.Scan(views[0].image), views[1].image, truth)
+
+
+def test_motions_are_judged_as_by_the_program(views, files, tmp_path, crude_register):
+    truth = true_motion(views[0], views[1])
+    shifted, turned = truth.copy(), truth.copy()
+    shifted[:3, 3] += 0.05
+    turned[:3, :3] = turned[:3, :3] @ np.diag([1.0, -1.0, -1.0])
+    statuses = []
+    for name, motion in (("truth", truth), ("shifted", shifted), ("turned", turned)):
+        np.savetxt(tmp_path / name, motion, fmt="%.17g")
+        printed = json.loads(crude_register("judge", files[0], files[1], "--motion", tmp_path / name, "--json"))
+        judgement = cr.judge(cr.Scan(views[0].image), files[1], motion)
+        assert json.loads(judgement.refined.to_json()) == printed["refined"]
+        assert judgement.displacement == printed["displacement"] and str(judgement.status) == printed["verdict"]
+        assert judgement.confidence == judgement.refined.confidence
+        assert cr.judge(files[0], files[1], motion[:3], parallel=False)[:3] == judgement[:3]
+        statuses.append(judgement.status)
+    assert statuses == [cr.MotionStatus.RIGHT, cr.MotionStatus.REFINABLE, cr.MotionStatus.WRONG]
+    with pytest.raises(ValueError, match="not rigid"):
+        cr.judge(files[0], files[1], np.eye(4) * [2, 1, 1, 1])
+    with pytest.raises(cr.PreparationInterrupted):
+        cr.judge(files[0], files[1], truth, time_budget=1e-9)

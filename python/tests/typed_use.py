@@ -27,6 +27,8 @@ def use(points: Floats, faces: numpy.typing.NDArray[numpy.int32], path: pathlib.
         print(names, result.poses[0].score, result.statistics[0].seconds)
     mesh = cr.simplify(cr.make_statue(), number_of_vertices=100)
     refined = cr.refine(mesh, cr.read_scan(path), result.T_target_source)
+    if cr.judge(source, path, refined.T_target_source).status is cr.MotionStatus.RIGHT:
+        print(cr.judge(source, path, numpy.eye(4)).refined.overlap)
     image, T_scene_scan = cr.simulate(mesh, [1.0, 0.0, 0.0])
     grid = image.grid
     if grid is not None:
