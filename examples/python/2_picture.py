@@ -22,5 +22,5 @@ for axis, title, points in zip(axes, ("as scanned", "registered"), (source.point
     axis.set_title(title)
     axis.scatter(*points[::5].T, s=0.5)
     axis.scatter(*target.points[::5].T, s=0.5)
-    axis.set_box_aspect((1, 1, 1))
+    axis.set_aspect("equal")
 figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "registered.png", dpi=150)
