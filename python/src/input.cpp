@@ -93,6 +93,14 @@ CR::Range_image<Kernel> to_image(const py::array_t<double>& grid)
 
 } // namespace
 
+Sensor_arguments sensor_of(const Scan_file& file, const Sensor_arguments& given)
+{
+  Sensor_arguments sensor = given;
+  if (!given.is_given() && file.sensor.is_perspective()) sensor.viewpoint = file.sensor.viewpoint();
+  if (!given.is_given() && file.sensor.is_orthographic()) sensor.viewing_direction = file.sensor.viewing_direction();
+  return sensor;
+}
+
 std::optional<std::string> to_path(const py::handle& object)
 {
   if (!py::isinstance<py::str>(object) && !py::isinstance<py::bytes>(object) && !py::hasattr(object, "__fspath__"))
@@ -145,7 +153,10 @@ Surface to_surface(const py::handle& object, const std::string& argument)
   const Scan_input input = to_input(object, py::none(), argument);
   if (input.scan) throw py::type_error(argument + ": a Scan has no mesh any more; give what it was made of");
   py::gil_scoped_release unlocked;
-  return CR::triangulate_scan(*input.contents());
+  const std::shared_ptr<const Scan_file> contents = input.contents();
+  return sensor_of(*contents, {})
+      .add_to(p::maximum_edge_ratio(CR::internal::default_maximum_edge_ratio), input.name,
+              [&](const auto& np) { return CR::triangulate_scan(*contents, np); });
 }
 
 py::object to_mesh(const Surface& surface)

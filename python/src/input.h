@@ -36,6 +36,9 @@ struct Sensor_arguments
   }
 };
 
+// What the caller says of the sensor, or else the file; a range image has its own.
+Sensor_arguments sensor_of(const Scan_file& file, const Sensor_arguments& given);
+
 // The name of a file as the system takes it, or nothing if the object is no path. \throws py::value_error
 std::optional<std::string> to_path(const py::handle& object);
 

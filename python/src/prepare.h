@@ -55,8 +55,9 @@ std::shared_ptr<const Scan> prepared(const Scan_input& input, const Sensor_argum
 {
   if (input.scan) return input.scan;
   const std::shared_ptr<const Scan_file> contents = input.contents();
-  return sensor.add_to(p::time_budget(budget.left()).candidates(method).visitor(std::ref(visitor)), input.name,
-                       [&](const auto& np) { return std::make_shared<const Scan>(*contents, np, input.name); });
+  return sensor_of(*contents, sensor)
+      .add_to(p::time_budget(budget.left()).candidates(method).visitor(std::ref(visitor)), input.name,
+              [&](const auto& np) { return std::make_shared<const Scan>(*contents, np, input.name); });
 }
 
 #endif // CRUDE_REGISTRATION_PYTHON_PREPARE_H

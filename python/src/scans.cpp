@@ -75,8 +75,8 @@ const char* const scan_file_doc =
 const char* const read_scan_doc = R"(read_scan(path)
 --
 
-Reads a scan from a file, whatever it holds: PLY (with a range_grid, with faces, or points), OFF, OBJ, STL, PTX, points
-as text, and what the C++ function read_scan() lists. Raises OSError, whose text names the file and the line.
+Reads a scan from a file, whatever it holds: PLY (with a range_grid, with faces, or points), PCD, PTX, OFF, OBJ, STL, LAS,
+NPY, points as text, and what the C++ function read_scan() lists. Raises OSError, whose text names the file and the line.
 )";
 
 std::shared_ptr<Scan> make_scan(const py::object& points, const py::object& faces, const py::object& viewpoint,
@@ -166,6 +166,11 @@ py::object grid_of(const Scan_file& file)
 {
   if (file.kind != Scan_file::RANGE_IMAGE) return py::none();
   return py::array_t<std::int32_t>({file.image.rows(), file.image.columns()}, file.image.grid().data());
+}
+
+const CR::Sensor<Kernel>& sensor_in(const Scan_file& file)
+{
+  return file.kind == Scan_file::RANGE_IMAGE ? file.image.sensor() : file.sensor;
 }
 
 template <class Three>
@@ -266,17 +271,23 @@ void bind_scans(py::module_& module)
   file.def_property_readonly(
       "viewpoint",
       [](const Scan_file& f) {
-        const auto& sensor = f.image.sensor();
+        const auto& sensor = sensor_in(f);
         return sensor.is_perspective() ? three_numbers(sensor.viewpoint()) : py::object(py::none());
       },
-      "Where the sensor of a range image stood; None if that is not known, or its lines of sight are parallel.");
+      "Where the sensor stood, if the file says or the grid tells it; None if its lines of sight are parallel.");
   file.def_property_readonly(
       "viewing_direction",
       [](const Scan_file& f) {
-        const auto& sensor = f.image.sensor();
+        const auto& sensor = sensor_in(f);
         return sensor.is_orthographic() ? three_numbers(sensor.viewing_direction()) : py::object(py::none());
       },
       "The direction of parallel lines of sight, into the scene, of length 1; None if they are not known to be.");
+  file.def_property_readonly(
+      "missing", [](const Scan_file& f) { return f.missing; },
+      "How many points of the file are missing samples: NaN, or the zeros that a format has in their place.");
+  file.def_property_readonly(
+      "notes", [](const Scan_file& f) { return f.notes; },
+      "A list of sentences on how the file was understood, where it could have been otherwise.");
   file.def(
       "surface", [](const py::object& f) { return to_mesh(to_surface(f, "surface")); },
       "surface(self)\n--\n\nThe surface as a Mesh: a range image and points are triangulated.");

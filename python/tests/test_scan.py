@@ -51,6 +51,35 @@ def test_files_are_read_as_they_were_written(views, tmp_path):
     assert repr(perspective).endswith("in a grid of 40 rows and 40 columns>")
 
 
+def test_what_a_file_says_is_told(views, tmp_path):
+    points = views[0].image.points
+    rows = "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in points.tolist())
+    head = "\n".join(
+        (
+            "VERSION .7",
+            "FIELDS x y z",
+            "SIZE 8 8 8",
+            "TYPE F F F",
+            "COUNT 1 1 1",
+            f"WIDTH {len(points) + 1}",
+            "HEIGHT 1",
+            "VIEWPOINT 0 0 5 1 0 0 0",
+            f"POINTS {len(points) + 1}",
+            "DATA ascii",
+        )
+    )
+    (tmp_path / "cloud.pcd").write_text(f"{head}\n{rows}nan nan nan\n", encoding="ascii")
+    file = cr.read_scan(tmp_path / "cloud.pcd")
+    assert file.kind is cr.ScanKind.POINTS and file.missing == 1 and isinstance(file.notes, list)
+    assert np.array_equal(file.viewpoint, [0, 0, 5]) and np.array_equal(file.points, points)
+    # The sensor that a file names is that of the scan, unless another one is given.
+    expected = cr.Scan(points, viewpoint=(0, 0, 5)).to_bytes()
+    assert cr.Scan(file).to_bytes() == cr.Scan(tmp_path / "cloud.pcd").to_bytes() == expected
+    assert cr.Scan(file, viewpoint=(0, 0, 6)).to_bytes() == cr.Scan(points, viewpoint=(0, 0, 6)).to_bytes()
+    np.save(tmp_path / "cloud.npy", points)
+    assert cr.Scan(tmp_path / "cloud.npy", viewpoint=(0, 0, 5)).to_bytes() == expected
+
+
 def test_the_grid_is_that_of_the_points(views):
     image = views[0].image
     used = image.grid[image.grid >= 0]
