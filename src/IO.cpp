@@ -10,6 +10,7 @@
 // Author(s)     : The Crude_registration authors
 
 #include <CGAL/Crude_registration/IO/internal/read_flat_scan_impl.h>
+#include <CGAL/Crude_registration/IO/internal/scan_bytes_impl.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>
 
 namespace CGAL {

@@ -51,7 +51,7 @@ TXT
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
 }
 
-configure() {
+configure() { # [OPTION...]
   say "Configuring build/"
   local options=()
   if [ ! -f build/CMakeCache.txt ]; then
@@ -59,7 +59,7 @@ configure() {
     command -v ccache >/dev/null && options+=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
   local log
-  log=$(cmake -S . -B build -D CMAKE_BUILD_TYPE=Release ${options[@]+"${options[@]}"} 2>&1) || { echo "$log" >&2; exit 1; }
+  log=$(cmake -S . -B build -D CMAKE_BUILD_TYPE=Release ${options[@]+"${options[@]}"} "$@" 2>&1) || { echo "$log" >&2; exit 1; }
 }
 
 processors() { getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1; }

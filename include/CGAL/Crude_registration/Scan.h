@@ -290,6 +290,9 @@ public:
 
   /// \cond SKIP_IN_MANUAL
   const internal::Reduced_scan& reduced() const { return m_reduced; }
+  explicit Scan(internal::Reduced_scan reduced, std::shared_ptr<const Scan> other_side = nullptr)
+      : m_reduced(std::move(reduced)), m_other_side(std::move(other_side))
+  {}
 
   // The surface seen from its other side, where nothing tells from which it was seen; or null.
   const Scan* other_side() const { return m_other_side.get(); }
@@ -305,8 +308,6 @@ public:
   /// \endcond
 
 private:
-  explicit Scan(internal::Reduced_scan reduced) : m_reduced(std::move(reduced)) {}
-
   template <class NamedParameters, class Function>
   static void within_limits(const NamedParameters& np, const std::string& name, const Function& f)
   {
@@ -357,7 +358,7 @@ private:
     const bool is_prepared = internal::prepare_for(generator_of(np), 0, flat, sensor, np, name, control, m_reduced);
     if (!samples.is_side_known && !is_prepared) {
       internal::turn_over(samples);
-      m_other_side = std::shared_ptr<const Scan>(new Scan(internal::reduce_scan(samples, sensor, {}, control)));
+      m_other_side = std::make_shared<const Scan>(internal::reduce_scan(samples, sensor, {}, control));
     }
     m_reduced.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }

@@ -20,6 +20,7 @@
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>
+#include <CGAL/Crude_registration/IO/save_scan.h>
 #include <CGAL/Crude_registration/IO/triangulate_scan.h>
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/IO/write_range_image.h>

@@ -135,6 +135,34 @@ public:
     return m_kind == Flat_sensor::PERSPECTIVE ? Vector_f(p - m_viewpoint) : Vector_f(m_axes.row(2));
   }
 
+  // All that it consists of, `buffer` being it: f(part), for a writer and a reader.
+  template <class Buffer, class Function>
+  static void for_each_part(Buffer& buffer, const Function& f)
+  {
+    f(buffer.m_kind);
+    f(buffer.m_viewpoint);
+    f(buffer.m_axes);
+    f(buffer.m_low_x);
+    f(buffer.m_low_y);
+    f(buffer.m_scale);
+    f(buffer.m_columns);
+    f(buffer.m_rows);
+    f(buffer.m_is_empty);
+    f(buffer.m_depths);
+  }
+
+  // Whether it can be looked into.
+  bool is_consistent() const
+  {
+    const bool is_image = m_columns > 0 && m_rows > 0 &&
+                          std::size_t(m_columns) * std::size_t(m_rows) == m_depths.size() &&
+                          m_is_empty.size() == m_depths.size();
+    return (m_kind == Flat_sensor::ORTHOGRAPHIC || m_kind == Flat_sensor::PERSPECTIVE)
+               ? is_image
+               : m_kind == Flat_sensor::UNKNOWN && !m_depths.empty() && m_is_empty.empty() && m_columns == 0 &&
+                     m_rows == 0;
+  }
+
 private:
   // Image coordinates and depth; not numbers where there are none. Perspective: Lambert's azimuthal equal-area
   // projection about the mean direction, as it holds the whole sphere (but the point opposite) in one plane.

@@ -133,6 +133,34 @@ public:
     return (is_inside & int(s != empty)) != 0 ? int(s) : none;
   }
 
+  // All that it consists of, `field` being it: f(part), for a writer and a reader.
+  template <class Field, class Function>
+  static void for_each_part(Field& field, const Function& f)
+  {
+    f(field.m_low);
+    f(field.m_size);
+    f(field.m_scale);
+    for (auto& blocks : field.m_blocks) f(blocks);
+    f(field.m_block_of);
+    f(field.m_voxels);
+  }
+
+  // Whether it can be looked into, and leads to surfels of which there are so many.
+  bool is_consistent(std::size_t surfels) const
+  {
+    const auto is_side = [](int n) { return n > 0 && n <= maximum_blocks; };
+    if (!std::all_of(m_blocks.begin(), m_blocks.end(), is_side)) return false;
+    for (int i = 0; i < 3; ++i)
+      if (!(m_size[i] >= 0 && m_size[i] <= float(4 * m_blocks[std::size_t(i)]))) return false;
+    const std::size_t blocks = m_voxels.size() / 64;
+    const auto is_block = [blocks](std::int32_t b) { return b >= 0 && std::size_t(b) < blocks; };
+    const auto is_surfel = [surfels](std::uint16_t s) { return s == empty || s < surfels; };
+    return m_voxels.size() % 64 == 0 &&
+           m_block_of.size() == std::size_t(m_blocks[0]) * std::size_t(m_blocks[1]) * std::size_t(m_blocks[2]) &&
+           std::all_of(m_block_of.begin(), m_block_of.end(), is_block) &&
+           std::all_of(m_voxels.begin(), m_voxels.end(), is_surfel);
+  }
+
 private:
   static constexpr std::uint16_t empty = 65535;
   static constexpr int maximum_blocks = 256;

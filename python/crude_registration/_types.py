@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The types of the module that hold no more than values."""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+import typing
+
+import numpy
+import numpy.typing
+
+if typing.TYPE_CHECKING:
+    from ._core import RegistrationResult
+
+
+class RegistrationStatus(enum.Enum):
+    """What came out of a registration."""
+
+    REGISTERED = "registered"
+    """One motion explains the scans, and it is certain."""
+    AMBIGUOUS = "ambiguous"
+    """Several distinct motions, or a family of motions, explain the scans about as well."""
+    NOT_REGISTERED = "not_registered"
+    """No motion was found that can be believed."""
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class MotionStatus(enum.Enum):
+    """What is to be said of a motion that somebody found."""
+
+    RIGHT = "right"
+    """It brings the scans together, to within a sampling distance."""
+    REFINABLE = "refinable"
+    """It does not, but what refinement makes of it does."""
+    WRONG = "wrong"
+    """Neither it nor what refinement makes of it can be told from chance."""
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class ScanKind(enum.Enum):
+    """What a ScanFile holds."""
+
+    RANGE_IMAGE = "range image"
+    """Samples in the cells of a grid, and the sensor if it is known."""
+    MESH = "mesh"
+    """Triangles."""
+    POINTS = "points"
+    """Points, and nothing that joins them."""
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class Mesh(typing.NamedTuple):
+    """A triangle mesh."""
+
+    points: numpy.typing.NDArray[numpy.float64]
+    """(n, 3): the vertices, in the unit and the frame of the scan that the mesh is of."""
+    faces: numpy.typing.NDArray[numpy.int32]
+    """(m, 3): rows of points, counterclockwise seen from outside or from the sensor."""
+
+
+class ScoredMotion(typing.NamedTuple):
+    """A motion that was considered, and how good it is."""
+
+    T_target_source: numpy.typing.NDArray[numpy.float64]
+    """(4, 4): maps the source into the frame of the target."""
+    score: float
+    """The natural logarithm of the odds that it is right: what the evidence says of it alone, whatever its rivals."""
+    probability: float
+    """That it is right, among all motions that were considered and none of them; of the answer its confidence."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Stage:
+    """What a stage of a registration did."""
+
+    name: str
+    count: int
+    """How many items it worked on."""
+    seconds: float
+    """How long that took."""
+
+
+class RefinedMotion(typing.NamedTuple):
+    """What refine() returns."""
+
+    T_target_source: numpy.typing.NDArray[numpy.float64]
+    """(4, 4): maps the source into the frame of the target."""
+    iterations: int
+    is_converged: bool
+    """Whether the last step was shorter than the tolerance."""
+    sampling_distance: float
+    """The distance of neighbouring samples that was used, in the unit of the coordinates."""
+    residual: float
+    """RMS distance of corresponding points along their normals, in sampling distances."""
+    overlap: float
+    """Share of the source's vertices on which the target lies, from 0 to 1."""
+    number_of_free_motions: int
+    """How many independent small motions the surfaces leave free: 3 on a plane, 0 where the motion is determined."""
+    covariance: numpy.typing.NDArray[numpy.float64]
+    """(6, 6): of the small motion that follows, turns about the target's axes in radians before displacements in the
+    unit of the coordinates."""
+
+
+class MotionJudgement(typing.NamedTuple):
+    """What judge() says of a motion."""
+
+    status: MotionStatus
+    confidence: float
+    """The probability that what refinement makes of the motion is right, from 0 to 1."""
+    displacement: float
+    """How far the motion is from that: RMS over the part of the source that overlaps, in sampling distances."""
+    refined: RegistrationResult
+    """What refinement makes of the motion, as if a registration had found it; its rivals are runners-up."""
+
+
+class PreparationInterrupted(RuntimeError):
+    """Raised by Scan() where its time budget or its progress function ends it: no part of a scan is of use."""
+
+
+for _type in (
+    RegistrationStatus,
+    MotionStatus,
+    ScanKind,
+    Mesh,
+    ScoredMotion,
+    Stage,
+    RefinedMotion,
+    MotionJudgement,
+    PreparationInterrupted,
+):
+    _type.__module__ = "crude_registration"
+del _type
