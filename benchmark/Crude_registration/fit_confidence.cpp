@@ -23,9 +23,6 @@
 #include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
 #include <CGAL/Crude_registration/internal/matching/Oriented_pair_search.h>
 #include <CGAL/Crude_registration/register_scans.h>
-#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
-
-#include <CGAL/Surface_mesh.h>
 
 #include <boost/program_options.hpp>
 
@@ -49,11 +46,12 @@
 namespace CR = CGAL::Crude_registration;
 namespace CRI = CR::internal;
 namespace po = boost::program_options;
+using benchmark_tools::mirrored;
+using benchmark_tools::scan_of;
 using benchmark_tools::Sensor_model;
 using benchmark_tools::Simulated_set;
 using Kernel = Simulated_set::Kernel;
 using Scan = CR::Scan<Kernel>;
-using Image = CR::Range_image<Kernel>;
 using Coefficients = CRI::Evidence_coefficients;
 
 namespace {
@@ -106,45 +104,12 @@ void search(std::size_t setting, const Scan& a, const Scan& b, const CRI::Rigid_
   }
 }
 
-Scan scan_of(const Image& image, bool with_sensor)
-{
-  if (with_sensor) return Scan(image);
-  CGAL::Surface_mesh<Kernel::Point_3> mesh;
-  CR::triangulate_range_image(image, mesh);
-  return Scan(mesh);
-}
-
-// As seen in a mirror; the columns the other way round, so that faces keep their side.
-Image mirrored(const Image& image)
-{
-  Image result(image.columns(), image.rows());
-  result.set_sensor(image.sensor());
-  for (std::size_t r = 0; r < image.rows(); ++r)
-    for (std::size_t c = 0; c < image.columns(); ++c) {
-      const auto i = image.grid()[r * image.columns() + c];
-      if (i < 0) continue;
-      const auto& p = image.points()[std::size_t(i)];
-      result.set_sample(image.columns() - 1 - c, r, Kernel::Point_3(-p.x(), p.y(), p.z()));
-    }
-  return result;
-}
-
 struct Generation
 {
   std::vector<Sensor_model> sensors;
   unsigned first_seed;
   std::size_t seeds, views;
 };
-
-// samples, noise, waves, quantization, drop-out, grazing drop-out, lost, perspective
-std::vector<Sensor_model> all_sensors()
-{
-  return {{30000, 0.05, 0, 0, 0, 0.3, 0, false},        {30000, 0.3, 0, 0, 0.02, 0.7, 0.15, true},
-          {10000, 0.5, 1.5, 0.5, 0.02, 0.7, 0.1, true}, {15000, 1, 1, 0, 0.05, 0.8, 0.2, true},
-          {7000, 2, 0, 0, 0.2, 0.8, 0.05, true},        {2000, 0.2, 0, 0, 0.01, 0.5, 0.05, false},
-          {500, 0.1, 0, 0, 0, 0.3, 0, false},           {150000, 0.5, 0.5, 1, 0.01, 0.7, 0.1, true},
-          {30000, 0.2, 0, 2, 0.1, 0.9, 0.3, false}};
-}
 
 // All pairs of the views of all scenes, the first view in a mirror, and the first view of another scene.
 // Returns the number of settings and of pairs.
@@ -483,7 +448,7 @@ int main(int argc, char** argv)
         "output", po::value(&output), "the header to write");
     po::variables_map values;
     if (!benchmark_tools::read_options(argc, argv, options, values)) return EXIT_SUCCESS;
-    generation.sensors = all_sensors();
+    generation.sensors = benchmark_tools::all_sensors();
     if (!chosen.empty()) {
       std::vector<Sensor_model> some;
       for (const std::size_t i : chosen) some.push_back(generation.sensors.at(i));

@@ -12,7 +12,10 @@
 
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/Range_image.h>
+#include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 #include <CGAL/Crude_registration/simulation/make_statue.h>
 #include <CGAL/Crude_registration/simulation/simulate_range_image.h>
 
@@ -46,6 +49,17 @@ struct Sensor_model
       0; // share of the samples that are lost in patches, as dark or shining places are, and what is overexposed
   bool is_perspective = false;
 };
+
+// From fine to coarse, clean to noisy: samples, noise, waves, quantization, drop-out, grazing drop-out, lost,
+// perspective.
+inline std::vector<Sensor_model> all_sensors()
+{
+  return {{30000, 0.05, 0, 0, 0, 0.3, 0, false},        {30000, 0.3, 0, 0, 0.02, 0.7, 0.15, true},
+          {10000, 0.5, 1.5, 0.5, 0.02, 0.7, 0.1, true}, {15000, 1, 1, 0, 0.05, 0.8, 0.2, true},
+          {7000, 2, 0, 0, 0.2, 0.8, 0.05, true},        {2000, 0.2, 0, 0, 0.01, 0.5, 0.05, false},
+          {500, 0.1, 0, 0, 0, 0.3, 0, false},           {150000, 0.5, 0.5, 1, 0.01, 0.7, 0.1, true},
+          {30000, 0.2, 0, 2, 0.1, 0.9, 0.3, false}};
+}
 
 class Simulated_set
 {
@@ -261,6 +275,32 @@ private:
   std::vector<std::vector<Vector>> m_points;
   std::vector<double> m_spacings;
 };
+
+// A scan of an image, or of the mesh of its samples alone, without its sensor.
+inline CGAL::Crude_registration::Scan<Simulated_set::Kernel>
+scan_of(const CGAL::Crude_registration::Range_image<Simulated_set::Kernel>& image, bool with_sensor)
+{
+  if (with_sensor) return CGAL::Crude_registration::Scan<Simulated_set::Kernel>(image);
+  Simulated_set::Mesh mesh;
+  CGAL::Crude_registration::triangulate_range_image(image, mesh);
+  return CGAL::Crude_registration::Scan<Simulated_set::Kernel>(mesh);
+}
+
+// As seen in a mirror; the columns the other way round, so that faces keep their side.
+inline CGAL::Crude_registration::Range_image<Simulated_set::Kernel>
+mirrored(const CGAL::Crude_registration::Range_image<Simulated_set::Kernel>& image)
+{
+  CGAL::Crude_registration::Range_image<Simulated_set::Kernel> result(image.columns(), image.rows());
+  result.set_sensor(image.sensor());
+  for (std::size_t r = 0; r < image.rows(); ++r)
+    for (std::size_t c = 0; c < image.columns(); ++c) {
+      const auto i = image.grid()[r * image.columns() + c];
+      if (i < 0) continue;
+      const auto& p = image.points()[std::size_t(i)];
+      result.set_sample(image.columns() - 1 - c, r, Simulated_set::Kernel::Point_3(-p.x(), p.y(), p.z()));
+    }
+  return result;
+}
 
 } // namespace benchmark_tools
 

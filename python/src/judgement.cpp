@@ -40,7 +40,7 @@ T_target_source: (4, 4) or (3, 4): the motion, rigid to three digits.
 >>> target, T_scene_target = cr.simulate(statue, (-1, -0.7, -0.25), samples=150)
 >>> cr.judge(source, target, numpy.linalg.inv(T_scene_target) @ T_scene_source).status
 <MotionStatus.RIGHT: 'right'>
->>> cr.judge(source, target, numpy.eye(4)).status
+>>> cr.judge(source, target, numpy.diag([-1, -1, 1, 1])).status  # upside down
 <MotionStatus.WRONG: 'wrong'>
 )";
 

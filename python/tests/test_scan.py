@@ -184,7 +184,8 @@ def test_the_bytes_are_as_documented(scan):
     assert int.from_bytes(data[8:12], "little") == 1
     assert int.from_bytes(data[12:20], "little") == len(data) - 24
     assert data == with_checksum(data[:-4])
-    rotation = np.frombuffer(data, "<f8", 9, 20).reshape(3, 3)
+    assert data[20] == 1  # side
+    rotation = np.frombuffer(data, "<f8", 9, 21).reshape(3, 3)
     assert np.allclose(rotation @ rotation.T, np.eye(3))
     other = with_checksum(data[:8] + (2).to_bytes(4, "little") + data[12:-4])
     with pytest.raises(ValueError, match="the format is 2, not 1"):
