@@ -177,6 +177,7 @@ auto assemble_scans(const ScanRange& scans, const NamedParameters& np = paramete
   if constexpr (internal::is_given<NamedParameters, internal_np::store_t>) {
     const internal::Pair_store store(internal::parameter(np, internal_np::store, std::string()));
     std::vector<internal::Content_hash> hashes;
+    hashes.reserve(reduced.size());
     for (const internal::Reduced_scan* scan : reduced) hashes.push_back(internal::hash_of(*scan));
     register_pair = [store, hashes, &register_now](std::size_t i, std::size_t j, internal::Run_control& task) {
       const std::string file = store.file(hashes[i], hashes[j]);

@@ -118,6 +118,7 @@ private:
                                                    const std::vector<std::size_t>& order)
   {
     std::vector<const Reduced_scan*> result;
+    result.reserve(order.size());
     for (const std::size_t i : order) result.push_back(scans[i]);
     return result;
   }

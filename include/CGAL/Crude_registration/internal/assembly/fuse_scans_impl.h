@@ -32,6 +32,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan fuse_scans(const Placed_scans& place
 {
   const auto median = [&](const auto& value) {
     std::vector<double> values;
+    values.reserve(scans.size());
     for (const std::size_t i : scans) values.push_back(double(value(placed.scan(i))));
     std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
     return values[values.size() / 2];

@@ -19,6 +19,7 @@
 #include <CGAL/Crude_registration/internal/base/compiled.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/judgement/Verdict.h>
+#include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
 #include <CGAL/Crude_registration/internal/motion/twist.h>
