@@ -116,7 +116,8 @@ inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, double J
     const auto moved = [&](double distance) {
       const Pose there = to_pose(exponential(twist, distance) * motion);
       const double odds = judge.weighed(there).*log_odds;
-      if (odds >= rival) return odds;
+      // Less probable than that nothing is right, it is not worth another look.
+      if (odds >= rival || odds < 0) return odds;
       // The motion is known to some digits only; what is free stays where refinement finds it.
       const Pose refined = judge.refined(there);
       return is_away(refined) ? (std::max)(odds, judge.weighed(refined).*log_odds) : odds;
