@@ -74,6 +74,24 @@ Assembly_result<Kernel> to_assembly_result(const Assembly_outcome& outcome)
   return Result(std::move(parts));
 }
 
+// `registration`: a Pair_registration or a Round_registration.
+template <class ConcurrencyTag, class Kernel, class Registration>
+Assembly_result<Kernel> assemble(const std::vector<const Reduced_scan*>& scans, const Registration& registration,
+                                 Run_control& control)
+{
+  // What is fused of many scans is no Scan: it is registered by the default, whatever the generator.
+  const Surface_registration register_surfaces = [](const Reduced_scan& source, const Reduced_scan& target,
+                                                    Run_control& task) {
+    const auto make_candidates = [](const Reduced_scan& a, const Reduced_scan& b) {
+      return Oriented_pair_candidates().candidates(a, b, Execution::SEQUENTIAL);
+    };
+    return to_pair_answer(
+        to_result<Kernel>(register_reduced_scans(source, target, make_candidates, Execution::SEQUENTIAL, task)));
+  };
+  return to_assembly_result<Kernel>(
+      assemble_reduced_scans(scans, registration, register_surfaces, execution<ConcurrencyTag>(), control));
+}
+
 // The points of one scan against the surfaces of others, in a frame of the assembly.
 class Distances_to_scans
 {
@@ -187,17 +205,7 @@ auto assemble_scans(const ScanRange& scans, const NamedParameters& np = paramete
       return answer;
     };
   }
-  // What is fused of many scans is no Scan: it is registered by the default, whatever the generator.
-  const internal::Surface_registration register_surfaces =
-      [](const internal::Reduced_scan& source, const internal::Reduced_scan& target, internal::Run_control& task) {
-        const auto make_candidates = [](const internal::Reduced_scan& a, const internal::Reduced_scan& b) {
-          return Oriented_pair_candidates().candidates(a, b, internal::Execution::SEQUENTIAL);
-        };
-        return internal::to_pair_answer(internal::to_result<Kernel>(
-            internal::register_reduced_scans(source, target, make_candidates, internal::Execution::SEQUENTIAL, task)));
-      };
-  return internal::to_assembly_result<Kernel>(internal::assemble_reduced_scans(
-      reduced, register_pair, register_surfaces, internal::execution<ConcurrencyTag>(), control));
+  return internal::assemble<ConcurrencyTag, Kernel>(reduced, register_pair, control);
 }
 
 /*!

@@ -40,6 +40,17 @@ using Pair_registration = std::function<Pair_answer(std::size_t source, std::siz
 using Surface_registration =
     std::function<Pair_answer(const Reduced_scan& source, const Reduced_scan& target, Run_control& control)>;
 
+// Two scans by their places in the input.
+struct Input_pair
+{
+  std::size_t source, target;
+};
+
+// Registers the pairs of a round, whoever does it: the answers in the order of the pairs, each with its motions in the
+// frames of the input. What it returns of a run that was stopped is not looked at.
+using Round_registration =
+    std::function<std::vector<Pair_answer>(const std::vector<Input_pair>& pairs, Run_control& control)>;
+
 struct Assembly_edge
 {
   std::size_t source = 0, target = 0;
@@ -73,6 +84,12 @@ struct Assembly_outcome
 
 Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
                                         const Pair_registration& register_pair,
+                                        const Surface_registration& register_surfaces, Execution execution,
+                                        Run_control& control);
+
+// The same, with the pairs of each round registered by what need not be this process.
+Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
+                                        const Round_registration& register_round,
                                         const Surface_registration& register_surfaces, Execution execution,
                                         Run_control& control);
 

@@ -18,16 +18,16 @@
 #include <CGAL/Crude_registration/internal/assembly/Parts.h>
 #include <CGAL/Crude_registration/internal/assembly/Placed_scans.h>
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
+#include <CGAL/Crude_registration/internal/assembly/assembly_edges.h>
 #include <CGAL/Crude_registration/internal/assembly/fuse_scans.h>
 #include <CGAL/Crude_registration/internal/assembly/loop_evidence.h>
 #include <CGAL/Crude_registration/internal/assembly/relax_poses.h>
+#include <CGAL/Crude_registration/internal/base/run_tasks.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -56,10 +56,10 @@ inline std::vector<std::size_t> canonical_order(const std::vector<const Reduced_
 class Assembler
 {
 public:
-  Assembler(const std::vector<const Reduced_scan*>& scans, const Pair_registration& register_pair,
+  Assembler(const std::vector<const Reduced_scan*>& scans, const Round_registration& register_pairs,
             const Surface_registration& register_surfaces, Execution execution, Run_control& control)
-      : m_scans(scans), m_register_pair(register_pair), m_register_surfaces(register_surfaces), m_execution(execution),
-        m_control(control), m_order(canonical_order(scans)), m_placed(in_order(scans, m_order))
+      : m_scans(scans), m_register_pairs(register_pairs), m_register_surfaces(register_surfaces),
+        m_execution(execution), m_control(control), m_order(canonical_order(scans)), m_placed(in_order(scans, m_order))
   {}
 
   Assembly_outcome operator()()
@@ -126,34 +126,19 @@ private:
   // False where the run was stopped: the answers of a round that was not done to its end are left out.
   bool register_round(const std::vector<Scan_pair>& round)
   {
-    std::vector<Tried_pair> tried(round.size());
-    const bool is_done = run(round.size(), [&](std::size_t k, Run_control& control) {
-      const std::size_t i = m_order[round[k].first], j = m_order[round[k].second];
-      tried[k] = {round[k], m_register_pair(i, j, control)};
-      for (Ranked_motion& m : tried[k].answer.motions)
-        m.motion = m_scans[j]->own_from_input * m.motion * m_scans[i]->own_from_input.inverse();
-    });
-    if (is_done) add(std::move(tried));
-    return is_done;
-  }
-
-  // f(k, control) for the tasks 0 .. n-1; of several failures the first is thrown. False where the run was stopped.
-  template <class Function>
-  bool run(std::size_t n, const Function& f)
-  {
-    std::vector<std::exception_ptr> failures(n);
-    for_each_index(m_execution, n, m_control, [&](std::size_t k) {
-      try {
-        // A task's own control: it is asked by the thread that made it.
-        Run_control control([this](double) { return m_control.go_on(); }, (std::numeric_limits<double>::infinity)());
-        f(k, control);
-      } catch (...) {
-        failures[k] = std::current_exception();
-      }
-    });
-    for (const std::exception_ptr& failure : failures)
-      if (failure) std::rethrow_exception(failure);
-    return !m_control.is_stopped();
+    std::vector<Input_pair> pairs;
+    for (const Scan_pair& p : round) pairs.push_back({m_order[p.first], m_order[p.second]});
+    std::vector<Pair_answer> answers = m_register_pairs(pairs, m_control);
+    if (m_control.is_stopped()) return false;
+    std::vector<Tried_pair> tried;
+    for (std::size_t k = 0; k < round.size(); ++k) {
+      tried.push_back({round[k], std::move(answers[k])});
+      const Rigid_motion own_from_source = m_scans[pairs[k].source]->own_from_input;
+      for (Ranked_motion& m : tried.back().answer.motions)
+        m.motion = m_scans[pairs[k].target]->own_from_input * m.motion * own_from_source.inverse();
+    }
+    add(std::move(tried));
+    return true;
   }
 
   // In an order that does not depend on when they came.
@@ -181,7 +166,7 @@ private:
     std::vector<Reduced_scan> surfaces(all.size());
     std::vector<std::uint8_t> is_wanted(all.size(), 0);
     for (const auto& t : tasks) is_wanted[t.first] = is_wanted[t.second] = 1;
-    bool is_done = run(all.size(), [&](std::size_t p, Run_control& control) {
+    bool is_done = run_tasks(all.size(), m_execution, m_control, [&](std::size_t p, Run_control& control) {
       if (is_wanted[p] == 0 || all[p].scans.size() == 1) return;
       try {
         surfaces[p] = fuse_scans(m_placed, all[p].scans, parts.poses(), control);
@@ -192,7 +177,7 @@ private:
     const auto surface = [&](std::size_t p) -> const Reduced_scan& {
       return all[p].scans.size() == 1 ? m_placed.scan(all[p].scans.front()) : surfaces[p];
     };
-    is_done = is_done && run(tasks.size(), [&](std::size_t t, Run_control& control) {
+    is_done = is_done && run_tasks(tasks.size(), m_execution, m_control, [&](std::size_t t, Run_control& control) {
                 tried[t] = fused_pair(parts, all[tasks[t].first], all[tasks[t].second],
                                       m_register_surfaces(surface(tasks[t].first), surface(tasks[t].second), control));
               });
@@ -232,17 +217,12 @@ private:
     return pair;
   }
 
-  Rigid_motion motion_of(const Parts& parts, const Scan_pair& pair) const
-  {
-    return parts.poses()[pair.second].inverse() * parts.poses()[pair.first];
-  }
-
   // Whether the first motion of a pair is that of the model.
   bool agrees(const Parts& parts, const Tried_pair& pair) const
   {
     return parts.are_together(pair.scans.first, pair.scans.second) && !pair.answer.motions.empty() &&
            pair.answer.status != NOT_REGISTERED &&
-           Parts::agrees(m_placed, pair.scans, pair.answer.motions.front().motion, motion_of(parts, pair.scans));
+           Parts::agrees(m_placed, pair.scans, pair.answer.motions.front().motion, motion_in(parts, pair.scans));
   }
 
   std::vector<Scan_pair> agreeing_pairs(const Parts& parts) const
@@ -282,7 +262,7 @@ private:
         relaxing.count += place_component(components[c], c, place, parts.poses(), outcome);
     }
     outcome.stages.push_back(relaxing);
-    for (const Tried_pair& pair : m_pairs) outcome.edges.push_back(edge(parts, pair));
+    for (const Tried_pair& pair : m_pairs) outcome.edges.push_back(assembly_edge(m_placed, parts, m_order, pair));
     std::sort(outcome.edges.begin(), outcome.edges.end(), [](const Assembly_edge& a, const Assembly_edge& b) {
       return std::tuple(a.source, a.target) < std::tuple(b.source, b.target);
     });
@@ -321,61 +301,8 @@ private:
     return relaxed.iterations;
   }
 
-  Assembly_edge edge(const Parts& parts, const Tried_pair& pair) const
-  {
-    Assembly_edge e;
-    e.source = m_order[pair.scans.first];
-    e.target = m_order[pair.scans.second];
-    if (e.source > e.target) std::swap(e.source, e.target);
-    e.registration = pair.answer.status;
-    e.reason = pair.answer.reason;
-    e.overlap = pair.answer.overlap;
-    e.residual = pair.answer.residual;
-    if (!pair.answer.motions.empty()) e.confidence = pair.answer.motions.front().probability;
-    if (pair.answer.status == NOT_REGISTERED) e.status = WITHOUT_OVERLAP;
-    else if (!parts.are_together(pair.scans.first, pair.scans.second)) {
-      e.status = NOT_CONNECTING;
-      if (e.reason.empty())
-        e.reason = pair.is_fused ? "found by the surface of a component alone" : "not certain enough alone";
-      for (const Join& join : parts.refused()) {
-        const std::size_t a = parts.part_of(pair.scans.first), b = parts.part_of(pair.scans.second);
-        if (join.first != (std::min)(a, b) || join.second != (std::max)(a, b)) continue;
-        if (join.violations > 0.1) e.reason = "one component would lie in the free space of the other";
-        else if (join.contradicting > 0) e.reason = "the pairs between the components contradict each other";
-      }
-    } else {
-      e.status = DROPPED;
-      for (std::size_t k = 0; k < pair.answer.motions.size(); ++k)
-        if (Parts::agrees(m_placed, pair.scans, pair.answer.motions[k].motion, motion_of(parts, pair.scans))) {
-          e.status = USED;
-          if (k > 0) e.reason = "decided by the other scans";
-          else if (pair.is_fused) e.reason = "by the surface that its component has together";
-          break;
-        }
-      if (e.status == DROPPED) e.reason = "contradicts the poses that the other pairs give";
-    }
-    return e;
-  }
-
-  static std::string reason_alone(std::size_t scan, const Assembly_outcome& outcome)
-  {
-    std::size_t tried = 0, best = 0;
-    const Assembly_edge* doubtful = nullptr;
-    for (const Assembly_edge& e : outcome.edges) {
-      if (e.source != scan && e.target != scan) continue;
-      ++tried;
-      if (e.status == NOT_CONNECTING && (!doubtful || e.confidence > doubtful->confidence)) doubtful = &e;
-      best += e.status == NOT_CONNECTING;
-    }
-    if (outcome.is_interrupted) return "interrupted before it was connected";
-    if (tried == 0) return "there is no other scan";
-    if (doubtful)
-      return "no pair is certain enough: the best of " + std::to_string(best) + " that may fit: " + doubtful->reason;
-    return "no overlap found with any of the " + std::to_string(tried) + " scans tried";
-  }
-
   const std::vector<const Reduced_scan*>& m_scans;
-  const Pair_registration& m_register_pair;
+  const Round_registration& m_register_pairs;
   const Surface_registration& m_register_surfaces;
   const Execution m_execution;
   Run_control& m_control;
@@ -386,11 +313,26 @@ private:
 };
 
 CGAL_CRUDE_REGISTRATION_INLINE Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
+                                                                       const Round_registration& register_round,
+                                                                       const Surface_registration& register_surfaces,
+                                                                       Execution execution, Run_control& control)
+{
+  return Assembler(scans, register_round, register_surfaces, execution, control)();
+}
+
+CGAL_CRUDE_REGISTRATION_INLINE Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
                                                                        const Pair_registration& register_pair,
                                                                        const Surface_registration& register_surfaces,
                                                                        Execution execution, Run_control& control)
 {
-  return Assembler(scans, register_pair, register_surfaces, execution, control)();
+  const Round_registration register_round = [&](const std::vector<Input_pair>& pairs, Run_control& run_control) {
+    std::vector<Pair_answer> answers(pairs.size());
+    run_tasks(pairs.size(), execution, run_control, [&](std::size_t k, Run_control& task) {
+      answers[k] = register_pair(pairs[k].source, pairs[k].target, task);
+    });
+    return answers;
+  };
+  return assemble_reduced_scans(scans, register_round, register_surfaces, execution, control);
 }
 
 } // namespace internal

@@ -1,0 +1,97 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Author(s)     : The Crude_registration authors
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_ASSEMBLY_ASSEMBLY_EDGES_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_ASSEMBLY_ASSEMBLY_EDGES_H
+
+// What is said of the pairs that were tried, once the scans lie as they lie.
+
+#include <CGAL/Crude_registration/internal/assembly/Parts.h>
+#include <CGAL/Crude_registration/internal/assembly/Placed_scans.h>
+#include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Of two scans of one part, second from first.
+inline Rigid_motion motion_in(const Parts& parts, const Scan_pair& pair)
+{
+  return parts.poses()[pair.second].inverse() * parts.poses()[pair.first];
+}
+
+// `order`: the place in the input of each scan.
+inline Assembly_edge assembly_edge(const Placed_scans& placed, const Parts& parts,
+                                   const std::vector<std::size_t>& order, const Tried_pair& pair)
+{
+  Assembly_edge e;
+  e.source = order[pair.scans.first];
+  e.target = order[pair.scans.second];
+  if (e.source > e.target) std::swap(e.source, e.target);
+  e.registration = pair.answer.status;
+  e.reason = pair.answer.reason;
+  e.overlap = pair.answer.overlap;
+  e.residual = pair.answer.residual;
+  if (!pair.answer.motions.empty()) e.confidence = pair.answer.motions.front().probability;
+  if (pair.answer.status == NOT_REGISTERED) e.status = WITHOUT_OVERLAP;
+  else if (!parts.are_together(pair.scans.first, pair.scans.second)) {
+    e.status = NOT_CONNECTING;
+    if (e.reason.empty())
+      e.reason = pair.is_fused ? "found by the surface of a component alone" : "not certain enough alone";
+    for (const Join& join : parts.refused()) {
+      const std::size_t a = parts.part_of(pair.scans.first), b = parts.part_of(pair.scans.second);
+      if (join.first != (std::min)(a, b) || join.second != (std::max)(a, b)) continue;
+      if (join.violations > 0.1) e.reason = "one component would lie in the free space of the other";
+      else if (join.contradicting > 0) e.reason = "the pairs between the components contradict each other";
+    }
+  } else {
+    e.status = DROPPED;
+    for (std::size_t k = 0; k < pair.answer.motions.size(); ++k)
+      if (Parts::agrees(placed, pair.scans, pair.answer.motions[k].motion, motion_in(parts, pair.scans))) {
+        e.status = USED;
+        if (k > 0) e.reason = "decided by the other scans";
+        else if (pair.is_fused) e.reason = "by the surface that its component has together";
+        break;
+      }
+    if (e.status == DROPPED) e.reason = "contradicts the poses that the other pairs give";
+  }
+  return e;
+}
+
+// Why a scan is alone.
+inline std::string reason_alone(std::size_t scan, const Assembly_outcome& outcome)
+{
+  std::size_t tried = 0, best = 0;
+  const Assembly_edge* doubtful = nullptr;
+  for (const Assembly_edge& e : outcome.edges) {
+    if (e.source != scan && e.target != scan) continue;
+    ++tried;
+    if (e.status == NOT_CONNECTING && (!doubtful || e.confidence > doubtful->confidence)) doubtful = &e;
+    best += e.status == NOT_CONNECTING;
+  }
+  if (outcome.is_interrupted) return "interrupted before it was connected";
+  if (tried == 0) return "there is no other scan";
+  if (doubtful)
+    return "no pair is certain enough: the best of " + std::to_string(best) + " that may fit: " + doubtful->reason;
+  return "no overlap found with any of the " + std::to_string(tried) + " scans tried";
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_ASSEMBLY_ASSEMBLY_EDGES_H
