@@ -11,6 +11,7 @@ A matrix T_target_source maps the source into the frame of the target. Results a
 C++ package and of its program crude_register.
 """
 
+from ._assembly import assemble
 from ._core import (
     RegistrationResult,
     Scan,
@@ -24,6 +25,11 @@ from ._core import (
     simulate,
 )
 from ._types import (
+    AssembledScan,
+    AssemblyEdge,
+    AssemblyOverlap,
+    AssemblyResult,
+    EdgeStatus,
     Mesh,
     MotionJudgement,
     MotionStatus,
@@ -36,6 +42,11 @@ from ._types import (
 )
 
 __all__ = [
+    "AssembledScan",
+    "AssemblyEdge",
+    "AssemblyOverlap",
+    "AssemblyResult",
+    "EdgeStatus",
     "Mesh",
     "MotionJudgement",
     "MotionStatus",
@@ -48,6 +59,7 @@ __all__ = [
     "ScanKind",
     "ScoredMotion",
     "Stage",
+    "assemble",
     "judge",
     "make_statue",
     "read_scan",

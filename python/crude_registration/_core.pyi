@@ -7,7 +7,16 @@ from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
 import numpy
 import numpy.typing
 
-from ._types import Mesh, MotionJudgement, RefinedMotion, RegistrationStatus, ScanKind, ScoredMotion, Stage
+from ._types import (
+    AssemblyResult,
+    Mesh,
+    MotionJudgement,
+    RefinedMotion,
+    RegistrationStatus,
+    ScanKind,
+    ScoredMotion,
+    Stage,
+)
 
 _Floats = numpy.typing.NDArray[numpy.float64]
 _Path = Union[str, bytes, "os.PathLike[Any]"]
@@ -110,6 +119,16 @@ class RegistrationResult:
     def __getstate__(self) -> Tuple[Any, ...]: ...
     def __setstate__(self, state: Tuple[Any, ...]) -> None: ...
 
+def assemble_scans(
+    scans: Sequence[Scan],
+    register_pairs: Optional[
+        Callable[[List[Tuple[int, int]], Callable[[], bool]], Optional[List[RegistrationResult]]]
+    ] = None,
+    store: Optional[str] = None,
+    time_budget: Optional[float] = None,
+    parallel: bool = True,
+    progress: Optional[_Progress] = None,
+) -> AssemblyResult: ...
 def read_scan(path: _Path) -> ScanFile: ...
 def register(
     source: _Scan,

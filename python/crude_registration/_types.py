@@ -120,6 +120,91 @@ class MotionJudgement(typing.NamedTuple):
     """What refinement makes of the motion, as if a registration had found it; its rivals are runners-up."""
 
 
+class EdgeStatus(enum.Enum):
+    """What came of a pair of scans that assemble() registered."""
+
+    USED = "used"
+    """A motion of the pair is that of the model."""
+    DROPPED = "dropped"
+    """Its motions contradict the model."""
+    NOT_CONNECTING = "not_connecting"
+    """Its motions would join two components, and are not believed."""
+    WITHOUT_OVERLAP = "without_overlap"
+    """No motion was found."""
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class AssembledScan(typing.NamedTuple):
+    """A scan in a model."""
+
+    component: int
+    """The component it is in, 0 for the largest."""
+    T_model_scan: numpy.typing.NDArray[numpy.float64]
+    """(4, 4): maps the scan into the frame of its component, which is that of the first scan of it."""
+    reason: str
+    """Why it is alone in its component, as a sentence; empty if it is not."""
+    residual: float
+    """RMS distance along the normals from the scans that it overlaps, in sampling distances."""
+    covariance: numpy.typing.NDArray[numpy.float64]
+    """(6, 6): of the small motion that follows, turns about the model's axes in radians before displacements in the
+    unit of the coordinates; zeros for the scan whose frame is that of the component."""
+
+
+class AssemblyEdge(typing.NamedTuple):
+    """A pair of scans that was registered, by their places."""
+
+    source: int
+    target: int
+    status: EdgeStatus
+    reason: str
+    """Why it was not used, or what is to be known of it."""
+    registration: RegistrationStatus
+    """What the registration of the two alone has said."""
+    confidence: float
+    """Its confidence in its best motion."""
+    overlap: float
+    residual: float
+
+
+class AssemblyOverlap(typing.NamedTuple):
+    """Two scans that overlap as they lie in the model, by their places."""
+
+    source: int
+    target: int
+    overlap: float
+    """The share of the source's surface that lies on the target's."""
+    residual: float
+    """RMS distance along the normals, in sampling distances."""
+
+
+@dataclasses.dataclass(frozen=True)
+class AssemblyResult:
+    """What assemble() returns."""
+
+    number_of_components: int
+    scans: list[AssembledScan]
+    """Of each scan, in the order in which they were given."""
+    edges: list[AssemblyEdge]
+    overlaps: list[AssemblyOverlap]
+    statistics: list[Stage]
+    is_interrupted: bool
+    """Whether the time budget or the progress function ended the run: there may be more to connect."""
+
+    @property
+    def components(self) -> list[list[int]]:
+        """The places of the scans of each component, the largest first."""
+        lists: list[list[int]] = [[] for _ in range(self.number_of_components)]
+        for i, scan in enumerate(self.scans):
+            lists[scan.component].append(i)
+        return lists
+
+    def __repr__(self) -> str:
+        sizes = ", ".join(str(len(c)) for c in self.components)
+        return f"<AssemblyResult: {len(self.scans)} scans in components of {sizes or 'none'}>"
+
+
 class PreparationInterrupted(RuntimeError):
     """Raised by Scan() where its time budget or its progress function ends it: no part of a scan is of use."""
 
@@ -133,6 +218,11 @@ for _type in (
     Stage,
     RefinedMotion,
     MotionJudgement,
+    EdgeStatus,
+    AssembledScan,
+    AssemblyEdge,
+    AssemblyOverlap,
+    AssemblyResult,
     PreparationInterrupted,
 ):
     _type.__module__ = "crude_registration"

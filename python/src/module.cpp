@@ -50,6 +50,7 @@ PYBIND11_MODULE(_core, module)
 
   bind_scans(module);
   bind_registration(module);
+  bind_assembly(module);
   bind_judgement(module);
   bind_tools(module);
   bind_simulation(module);

@@ -34,6 +34,7 @@ using Result = CR::Registration_result<Kernel>;
 
 void bind_scans(py::module_& module);
 void bind_registration(py::module_& module);
+void bind_assembly(py::module_& module);
 void bind_judgement(py::module_& module);
 void bind_tools(py::module_& module);
 void bind_simulation(py::module_& module);
