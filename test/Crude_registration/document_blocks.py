@@ -6,8 +6,8 @@ document_blocks.py SOURCE_DIR project DIR               writes a project of all 
 document_blocks.py SOURCE_DIR shell PROGRAM DIR         runs what shell blocks do with crude_register, PROGRAM, in DIR
 document_blocks.py SOURCE_DIR python PROGRAM DIR        runs the Python blocks in DIR, on scans that PROGRAM simulates
 
-C++ blocks may use the names that PREAMBLE declares. Shell blocks and Python blocks find source.ply, target.ply and scan_0.ply to
-scan_3.ply.
+C++ blocks may use the names that PREAMBLE declares. Shell blocks and Python blocks find source.ply, target.ply and
+scan_0.ply to scan_3.ply.
 """
 
 import os
@@ -183,7 +183,7 @@ def check_names(root):
             for option in re.findall(r"-D (CRUDE_REGISTRATION_\w+)", block):
                 if option not in cmake:
                     wrong.append(f"{place} sets {option}, of which CMake knows nothing")
-    sys.exit("\n".join(wrong))
+    sys.exit("\n".join(wrong) or 0)
 
 
 def main():
