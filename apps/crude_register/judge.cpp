@@ -44,7 +44,8 @@ Transformation read_motion(const std::string& file)
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && text[first] == '{') {
     try {
-      for (const Json& row : Json::parse(text).at("target_from_source"))
+      const Json json = Json::parse(text); // outlives the loop
+      for (const Json& row : json.at("target_from_source"))
         for (const Json& x : row) m.push_back(x.get<double>());
     } catch (const Json::exception& e) {
       throw CR::IO_error(file, std::string("the JSON has no motion target_from_source: ") + e.what());
