@@ -12,6 +12,8 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "picture.h"
+#include "surfaces.h"
 
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/assemble_scans.h>
@@ -157,6 +159,7 @@ int run_assemble(const std::vector<std::string>& arguments)
       "file (PLY) for the points of the largest component in one frame, each with the number of its scan and its "
       "distance from the other ones, -1 where they are not near");
   add("table", po::value<std::string>(), "file for the overlaps and the residuals of all pairs, as text");
+  add("picture", po::value<std::string>(), "file (PNG) for a picture of the largest component, a colour a scan");
   add("viewpoint", po::value<std::string>(),
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
   add("graph", po::value<std::string>(), "file for the graph of the pairs, for GraphViz");
@@ -184,6 +187,11 @@ int run_assemble(const std::vector<std::string>& arguments)
   const double time_budget = value_of<double>(map, "time-budget").value_or((std::numeric_limits<double>::max)());
   if (!(time_budget > 0 && std::isfinite(time_budget))) throw Usage_error("--time-budget takes seconds, above zero");
 
+  for (const char* option : {"poses", "output", "table", "graph"})
+    if (const auto file = value_of<std::string>(map, option)) check_output(*file);
+  const auto picture = value_of<std::string>(map, "picture");
+  check_picture(picture);
+
   const auto files = map["SCAN"].as<std::vector<std::string>>();
   const std::vector<std::string> names = names_of(files);
   const auto start = Clock::now();
@@ -201,6 +209,16 @@ int run_assemble(const std::vector<std::string>& arguments)
   if (const auto file = value_of<std::string>(map, "table"))
     CR::write_file(*file, [&](std::ostream& out) { write_tables(out, result, names); });
   if (const auto file = value_of<std::string>(map, "output")) write_points(*file, map, result, scans, files);
+  if (picture) {
+    std::vector<Surface> surfaces;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (result.component(i) != 0) continue;
+      const Scan_file contents = read_scan(map, files[i]);
+      surfaces.push_back(surface_to_show(contents, viewpoint_of(contents, viewpoint), &scans[i]));
+      move(surfaces.back(), result.pose(i));
+    }
+    write_picture(*picture, std::move(surfaces), true);
+  }
   const bool with_times = map.count("times") > 0;
   if (map.count("json") > 0) std::cout << to_text(to_json(result, files, with_times)) << '\n';
   else print_text(result, names);

@@ -12,6 +12,7 @@
 
 #include "files.h"
 #include "options.h"
+#include "surfaces.h"
 
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/assemble_scans.h>
@@ -159,19 +160,6 @@ inline void write_tables(std::ostream& out, const Assembly& result, const std::v
         << std::count_if(residuals.begin(), residuals.end(),
                          [&](double r) { return r > bands[b] && r <= bands[b + 1]; })
         << '\n';
-}
-
-inline std::vector<Point> points_of(const Scan_file& file)
-{
-  switch (file.kind) {
-  case Scan_file::RANGE_IMAGE:
-    return file.image.points();
-  case Scan_file::MESH:
-    return std::vector<Point>(file.mesh.points().begin(), file.mesh.points().end());
-  case Scan_file::POINTS:
-    break;
-  }
-  return file.points;
 }
 
 // The points of the largest component, read again, in its frame.

@@ -139,6 +139,17 @@ inline void make_folder(const std::string& folder)
   if (error) throw CR::IO_error(folder, "the folder cannot be made: " + error.message());
 }
 
+// Told before the work: where a file cannot be written.
+inline void check_output(const std::string& file)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(file, error)) throw CR::IO_error(file, "the file cannot be written: it is a folder");
+  const fs::path folder = fs::path(file).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, error))
+    throw CR::IO_error(file, "the file cannot be written: there is no folder " + folder.string());
+}
+
 inline std::string in_folder(const std::string& folder, const std::string& name)
 {
   return (std::filesystem::path(folder) / name).string();

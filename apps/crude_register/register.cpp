@@ -11,7 +11,9 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "picture.h"
 #include "sides.h"
+#include "surfaces.h"
 
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
@@ -265,6 +267,9 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("output", po::value<std::string>(),
       "folder for source_moved.ply, target.ply and motion.txt (the 4 x 4 matrix); "
       "made if missing, written unless the scans are not registered");
+  add("picture", po::value<std::string>(),
+      "file (PNG) for a picture of both scans as they were registered, the source orange and the target blue; side by "
+      "side if they are not");
   add_options_of_sides(options);
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
   add("time-budget", po::value<double>(),
@@ -298,6 +303,8 @@ int run_register(const std::vector<std::string>& arguments)
   const std::optional<double> f1 = value_of<double>(map, "f1"), f2 = value_of<double>(map, "f2");
   const std::string method = map["method"].as<std::string>();
   const auto poses_file = value_of<std::string>(map, "poses"), output = value_of<std::string>(map, "output");
+  const auto picture = value_of<std::string>(map, "picture");
+  check_picture(picture);
   const auto poses = poses_file ? read_poses(*poses_file) : std::map<std::string, Transformation>();
 
   std::array<Side, 2> sides;
@@ -323,6 +330,14 @@ int run_register(const std::vector<std::string>& arguments)
     }
     if (output)
       written = write_output(*output, result.transformation(), source, mesh_of(sides[1].contents, sides[1].viewpoint));
+  }
+
+  if (picture) {
+    std::vector<Surface> surfaces;
+    for (const Side& side : sides) surfaces.push_back(surface_to_show(side.contents, side.viewpoint, side.scan.get()));
+    move(surfaces[0], result.transformation());
+    write_picture(*picture, std::move(surfaces), result.status() != CR::NOT_REGISTERED);
+    written.push_back(*picture);
   }
 
   const std::string hint = result.status() == CR::REGISTERED ? "" : hint_of(sides);

@@ -274,6 +274,27 @@ awk 'BEGIN { for (i = 0; i < 30; ++i) for (j = 0; j < 40; ++j) print i, j, 0 }' 
 expect 2 register plane_0.xyz plane_1.xyz
 says "status:     ambiguous"
 
+# Pictures: a PNG file, of a registered pair, of one that is not, and of an assembly; a bad name is told before the work.
+is_png()
+{
+  [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$1 is no PNG file"
+}
+expect 0 register $pair --picture pair.png
+says "written:    pair.png"
+is_png pair.png
+cp pair.png first.png
+expect 0 register $pair --picture pair.png --threads 1
+cmp -s pair.png first.png || fail "the number of threads changes the picture"
+expect 2 register plane_0.xyz plane_1.xyz --picture planes.png
+is_png planes.png
+expect 0 assemble $pair --picture model.png
+is_png model.png
+rejects "there is no folder nowhere" register absent.ply absent.ply --picture nowhere/pair.png
+rejects "it is a folder" register absent.ply absent.ply --picture scans
+for option in picture poses output table graph; do
+  rejects "there is no folder nowhere" assemble absent.ply absent.ply --$option nowhere/file
+done
+
 # Information.
 expect 0 info scans/scan_0.ply
 says "range image"

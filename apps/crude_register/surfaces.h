@@ -1,0 +1,108 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CRUDE_REGISTER_SURFACES_H
+#define CRUDE_REGISTER_SURFACES_H
+
+// Scans as they are shown: points with normals, and triangles where the file has them.
+
+#include "files.h"
+#include "options.h"
+
+#include <CGAL/Crude_registration/Scan.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+using Direction = Kernel::Vector_3;
+
+struct Colour
+{
+  int red, green, blue;
+};
+
+// Colours that are told apart by people who do not tell red from green, too (from blue to orange first), in turn.
+inline Colour colour_of_scan(std::size_t i)
+{
+  constexpr std::array<Colour, 8> colours = {Colour{230, 145, 40}, {60, 130, 200},  {70, 170, 120}, {200, 90, 150},
+                                             {215, 200, 60},       {110, 190, 225}, {200, 80, 40},  {130, 110, 190}};
+  return colours[i % colours.size()];
+}
+
+// What is shown of a scan.
+struct Surface
+{
+  std::vector<Point> points;
+  std::vector<Direction> normals; // of unit length, or null where none is known; as many
+  std::vector<std::array<std::size_t, 3>> triangles;
+  Colour colour = {128, 128, 128};
+  double spacing = 0; // of the points, about
+};
+
+inline std::vector<Point> points_of(const Scan_file& file)
+{
+  switch (file.kind) {
+  case Scan_file::RANGE_IMAGE:
+    return file.image.points();
+  case Scan_file::MESH:
+    return std::vector<Point>(file.mesh.points().begin(), file.mesh.points().end());
+  case Scan_file::POINTS:
+    break;
+  }
+  return file.points;
+}
+
+// The normals of the surface that was registered, at points of the scan's file; null ones where it is not near.
+inline std::vector<Direction> normals_at(const std::vector<Point>& points, const CR::Scan<Kernel>* scan)
+{
+  std::vector<Direction> normals(points.size(), CGAL::NULL_VECTOR);
+  if (scan == nullptr) return normals;
+  const CR::internal::Reduced_scan& reduced = scan->reduced();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const CR::internal::Vector own = reduced.own_from_input(CR::internal::to_vector(points[i]));
+    const int nearest = reduced.fine.field.nearest(own.cast<float>());
+    if (nearest < 0) continue;
+    const CR::internal::Vector n =
+        reduced.own_from_input.rotation.transpose() * reduced.fine.surfels[std::size_t(nearest)].normal.cast<double>();
+    normals[i] = Direction(n.x(), n.y(), n.z());
+  }
+  return normals;
+}
+
+// All of a scan for a picture: with triangles, but where it is points alone.
+inline Surface surface_to_show(const Scan_file& file, const std::optional<Point>& viewpoint,
+                               const CR::Scan<Kernel>* scan)
+{
+  Surface surface;
+  if (file.kind == Scan_file::POINTS) {
+    surface.points = file.points;
+    surface.normals = normals_at(surface.points, scan);
+    if (scan != nullptr) surface.spacing = scan->spacing();
+  } else {
+    const Mesh mesh = mesh_of(file, viewpoint);
+    surface.points.assign(mesh.points().begin(), mesh.points().end());
+    for (const auto f : mesh.faces()) {
+      std::vector<std::size_t> corners;
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) corners.push_back(std::size_t(v));
+      for (std::size_t k = 2; k < corners.size(); ++k)
+        surface.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+    }
+  }
+  return surface;
+}
+
+inline void move(Surface& surface, const Transformation& motion)
+{
+  for (Point& p : surface.points) p = p.transform(motion);
+  for (Direction& n : surface.normals) n = n.transform(motion);
+}
+
+#endif // CRUDE_REGISTER_SURFACES_H
