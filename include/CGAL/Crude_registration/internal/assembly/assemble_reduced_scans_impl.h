@@ -127,10 +127,12 @@ private:
   bool register_round(const std::vector<Scan_pair>& round)
   {
     std::vector<Input_pair> pairs;
+    pairs.reserve(round.size());
     for (const Scan_pair& p : round) pairs.push_back({m_order[p.first], m_order[p.second]});
     std::vector<Pair_answer> answers = m_register_pairs(pairs, m_control);
     if (m_control.is_stopped()) return false;
     std::vector<Tried_pair> tried;
+    tried.reserve(round.size());
     for (std::size_t k = 0; k < round.size(); ++k) {
       tried.push_back({round[k], std::move(answers[k])});
       const Rigid_motion own_from_source = m_scans[pairs[k].source]->own_from_input;
