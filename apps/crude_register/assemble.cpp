@@ -12,6 +12,7 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "run_limits.h"
 #include "picture.h"
 #include "surfaces.h"
 
@@ -19,10 +20,6 @@
 #include <CGAL/Crude_registration/assemble_scans.h>
 
 #include <CGAL/for_each.h>
-
-#ifdef CGAL_LINKED_WITH_TBB
-#include <tbb/global_control.h>
-#endif
 
 #include <algorithm>
 #include <chrono>
@@ -42,12 +39,6 @@ namespace {
 
 using Scan = CR::Scan<Kernel>;
 using Result = CR::Assembly_result<Kernel>;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct Input
 {
@@ -177,15 +168,8 @@ int run_assemble(const std::vector<std::string>& arguments)
   if (!given) return 0;
   const po::variables_map& map = *given;
   const std::optional<Point> viewpoint = point_of(map, "viewpoint");
-  const std::optional<int> threads = value_of<int>(map, "threads");
-  if (threads && *threads < 1) throw Usage_error("--threads takes a number above zero");
-#ifdef CGAL_LINKED_WITH_TBB
-  // Never destroyed: where the limit is lifted, TBB starts a thread, which fails where memory has run out.
-  [[maybe_unused]] static const tbb::global_control* limit = nullptr;
-  if (threads) limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(*threads));
-#endif
-  const double time_budget = value_of<double>(map, "time-budget").value_or((std::numeric_limits<double>::max)());
-  if (!(time_budget > 0 && std::isfinite(time_budget))) throw Usage_error("--time-budget takes seconds, above zero");
+  limit_threads(map);
+  const double time_budget = time_budget_of(map);
 
   for (const char* option : {"poses", "output", "table", "graph"})
     if (const auto file = value_of<std::string>(map, option)) check_output(*file);

@@ -15,11 +15,17 @@
 
 #include <CGAL/Crude_registration/Scan.h>
 
+#include <CGAL/Orthogonal_k_neighbor_search.h>
+#include <CGAL/Search_traits_3.h>
+#include <CGAL/Search_traits_adapter.h>
+#include <CGAL/property_map.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using Direction = Kernel::Vector_3;
@@ -60,19 +66,24 @@ inline std::vector<Point> points_of(const Scan_file& file)
   return file.points;
 }
 
-// The normals of the surface that was registered, at points of the scan's file; null ones where it is not near.
+// The normals of the surface that was registered, at points of the scan's file: those of the nearest of its points.
 inline std::vector<Direction> normals_at(const std::vector<Point>& points, const CR::Scan<Kernel>* scan)
 {
   std::vector<Direction> normals(points.size(), CGAL::NULL_VECTOR);
   if (scan == nullptr) return normals;
-  const CR::internal::Reduced_scan& reduced = scan->reduced();
+  using Place = std::pair<Point, std::size_t>;
+  using Traits =
+      CGAL::Search_traits_adapter<Place, CGAL::First_of_pair_property_map<Place>, CGAL::Search_traits_3<Kernel>>;
+  using Search = CGAL::Orthogonal_k_neighbor_search<Traits>;
+  const std::vector<Point> places = scan->points();
+  const std::vector<Direction> known = scan->normals();
+  std::vector<Place> numbered;
+  numbered.reserve(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) numbered.emplace_back(places[i], i);
+  const Search::Tree tree(numbered.begin(), numbered.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const CR::internal::Vector own = reduced.own_from_input(CR::internal::to_vector(points[i]));
-    const int nearest = reduced.fine.field.nearest(own.cast<float>());
-    if (nearest < 0) continue;
-    const CR::internal::Vector n =
-        reduced.own_from_input.rotation.transpose() * reduced.fine.surfels[std::size_t(nearest)].normal.cast<double>();
-    normals[i] = Direction(n.x(), n.y(), n.z());
+    const Search search(tree, points[i], 1);
+    if (search.begin() != search.end()) normals[i] = known[search.begin()->first.second];
   }
   return normals;
 }
