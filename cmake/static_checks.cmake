@@ -7,7 +7,9 @@ file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp
 
 # Every header is compiled alone, twice in a row, with all warnings as errors: by clang++ where it is there, two to three
 # times faster at this than g++, which meets all headers in the programs. One file carries the compile flags of all.
-# The internal headers are taken as the compiled core declares them; their code is met in the public ones and in src/.
+# The internal headers are taken as the compiled core declares them, and after what is compiled once for all of them; their
+# code, and whether they include what they use of other libraries, is met in the public ones, which have nothing before
+# them.
 find_program(CRUDE_REGISTRATION_HEADER_COMPILER NAMES clang++-14 clang++)
 mark_as_advanced(CRUDE_REGISTRATION_HEADER_COMPILER)
 if(CRUDE_REGISTRATION_HEADER_COMPILER)
@@ -28,15 +30,33 @@ set(compile_flags ${PROJECT_BINARY_DIR}/headers/compile_flags.txt) # where clang
 file(GENERATE OUTPUT ${compile_flags} CONTENT "-std=c++17\n-frounding-math\n-I${PROJECT_SOURCE_DIR}/include
 $<$<BOOL:${includes}>:-isystem$<JOIN:${includes},\n-isystem>>
 $<$<BOOL:${definitions}>:-D$<JOIN:${definitions},\n-D>>\n")
-# check_source(STAMPS NAME SOURCE COMMENT [OPTION...]): compiled, but for the code; adds a file that says so to the list
-# STAMPS.
+# What takes most of the time of most files.
+set(common "")
+if(header_compiler MATCHES "clang")
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/headers/common.h CONTENT
+    "#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>\n#include <CGAL/Surface_mesh.h>\n#include <Eigen/Dense>\n")
+  set(common ${PROJECT_BINARY_DIR}/headers/common.pch)
+  add_custom_command(OUTPUT ${common}
+    COMMAND ${header_compiler} @${compile_flags} -x c++-header ${PROJECT_BINARY_DIR}/headers/common.h -o ${common}
+    DEPENDS ${PROJECT_BINARY_DIR}/headers/common.h ${compile_flags} VERBATIM COMMENT "What the headers have in common")
+endif()
+# check_source(STAMPS NAME SOURCE COMMENT [AFTER_COMMON] [OPTION...]): compiled, but for the code; adds a file that says so
+# to the list STAMPS.
 function(check_source stamps name source comment)
+  set(dependency "")
+  if("AFTER_COMMON" IN_LIST ARGN)
+    list(REMOVE_ITEM ARGN AFTER_COMMON)
+    if(common)
+      list(APPEND ARGN -include-pch ${common})
+      set(dependency DEPENDS ${common})
+    endif()
+  endif()
   set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.stamp)
   add_custom_command(OUTPUT ${stamp}
     COMMAND ${header_compiler} @${compile_flags} -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
             ${ARGN} -MMD -MT ${stamp} -MF ${stamp}.d ${source}
     COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
-    DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${comment}")
+    ${dependency} DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${comment}")
   set(${stamps} ${${stamps}} ${stamp} PARENT_SCOPE)
 endfunction()
 set(header_stamps "")
@@ -51,7 +71,7 @@ foreach(header IN LISTS headers)
   file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
   set(options "")
   if(header MATCHES "/internal/")
-    set(options -DCGAL_CRUDE_REGISTRATION_COMPILED)
+    set(options AFTER_COMMON -DCGAL_CRUDE_REGISTRATION_COMPILED)
   endif()
   check_source(header_stamps ${name} ${source} "${header} alone" ${options})
 endforeach()
@@ -61,7 +81,8 @@ set(program_stamps "")
 file(GLOB app_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/apps/*/*.cpp)
 foreach(source IN LISTS app_sources)
   string(MAKE_C_IDENTIFIER ${source} name)
-  check_source(program_stamps ${name} ${PROJECT_SOURCE_DIR}/${source} "${source}")
+  check_source(program_stamps ${name} ${PROJECT_SOURCE_DIR}/${source} "${source}" AFTER_COMMON
+    -DCGAL_CRUDE_REGISTRATION_COMPILED)
 endforeach()
 if(TARGET benchmarks)
   get_target_property(names benchmarks MANUALLY_ADDED_DEPENDENCIES)
@@ -69,7 +90,7 @@ if(TARGET benchmarks)
     get_target_property(is_left_out ${name} EXCLUDE_FROM_ALL)
     if(is_left_out)
       check_source(program_stamps benchmark_${name} ${PROJECT_SOURCE_DIR}/benchmark/Crude_registration/${name}.cpp
-        "benchmark ${name}")
+        "benchmark ${name}" AFTER_COMMON -DCGAL_CRUDE_REGISTRATION_COMPILED)
     endif()
   endforeach()
 endif()

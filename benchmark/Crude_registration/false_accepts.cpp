@@ -85,6 +85,8 @@ int main(int argc, char** argv)
       ++n;
       largest = (std::max)(largest, result.confidence());
       ambiguous += result.status() == CR::AMBIGUOUS;
+      constexpr std::size_t often = 1000;
+      if (n % often == 0) std::cerr << n << " trials so far, " << registered << " registered\n";
       if (result.status() != CR::REGISTERED) return;
       ++registered;
       std::cout << what << " is registered, confidence " << result.confidence() << std::endl;

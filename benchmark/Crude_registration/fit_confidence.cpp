@@ -17,6 +17,7 @@
 // calibrated.
 
 #include "command_line.h"
+#include "conditional_logit.h"
 #include "simulated_set.h"
 
 #include <CGAL/Crude_registration/IO/write_file.h>
@@ -239,94 +240,63 @@ std::vector<Choice> choices_of(const Generation& generation, const Coefficients&
   return choices;
 }
 
-using Features = Eigen::Vector4d;
-using Information = Eigen::Matrix4d;
+using Logit = benchmark_tools::Conditional_logit<5>;
 
 // What the log-odds are a linear function of; `surfels` as in Evidence_coefficients.
-Features features(const CRI::Pose_evidence& e, double surfels)
+Logit::Features features(const CRI::Pose_evidence& e, double surfels)
 {
-  return {std::sqrt(e.surfels / (e.surfels + surfels) * (std::max)(e.nats, 0.)), e.residual, std::sqrt(e.violations),
-          1};
+  Logit::Features f;
+  f << std::sqrt(e.surfels / (e.surfels + surfels) * (std::max)(e.nats, 0.)), e.residual, std::sqrt(e.violations),
+      std::sqrt((std::max)(e.usual, 0.)) - std::sqrt(e.rival), 1;
+  return f;
 }
 
-// The logarithm of the likelihood of the choices, but of those of setting `without`, with a weak prior of standard
-// deviation a hundred, which keeps what maximises it finite where right and wrong do not overlap.
-double log_likelihood(const std::vector<Choice>& choices, std::size_t without, double surfels, const Features& b,
-                      Features* gradient = nullptr, Information* information = nullptr)
+Logit logit(const std::vector<Choice>& choices, double surfels)
 {
-  constexpr double precision = 1e-4;
-  double sum = -precision / 2 * b.squaredNorm();
-  if (gradient) *gradient = -precision * b;
-  if (information) *information = precision * Information::Identity();
+  Logit result;
   for (const Choice& choice : choices) {
-    if (choice.setting == without) continue;
-    std::vector<Features> poses;
-    double greatest = 0;
-    for (const auto& p : choice.poses) {
-      poses.push_back(features(p, surfels));
-      greatest = (std::max)(greatest, b.dot(poses.back()));
-    }
-    double total = std::exp(-greatest);
-    Features mean = Features::Zero();
-    Information square = Information::Zero();
-    for (const Features& f : poses) {
-      const double e = std::exp(b.dot(f) - greatest);
-      total += e;
-      mean += e * f;
-      if (information) square += e * f * f.transpose();
-    }
-    mean /= total;
-    sum -= greatest + std::log(total);
-    if (choice.right >= 0) sum += b.dot(poses[std::size_t(choice.right)]);
-    if (gradient) {
-      *gradient -= mean;
-      if (choice.right >= 0) *gradient += poses[std::size_t(choice.right)];
-    }
-    if (information) *information += square / total - mean * mean.transpose();
+    std::vector<Logit::Features> poses;
+    for (const auto& p : choice.poses) poses.push_back(features(p, surfels));
+    result.add_choice(poses, choice.right, choice.setting);
   }
-  return sum;
+  return result;
 }
 
-// Conditional logistic regression by Newton's method, damped, for a number of surfels; the likelihood.
-double fit(const std::vector<Choice>& choices, std::size_t without, double surfels, Features& x)
+void set(const Logit::Estimate& e, Coefficients& c)
 {
-  x = Features::Zero();
-  double value = log_likelihood(choices, without, surfels, x);
-  constexpr int most_steps = 100;
-  for (int i = 0; i < most_steps; ++i) {
-    Features gradient;
-    Information information;
-    log_likelihood(choices, without, surfels, x, &gradient, &information);
-    Features step = information.ldlt().solve(gradient);
-    double next = log_likelihood(choices, without, surfels, x + step);
-    while (next < value && step.norm() > 1e-9) {
-      step /= 2;
-      next = log_likelihood(choices, without, surfels, x + step);
-    }
-    x += step;
-    const bool is_done = next - value < 1e-9 * std::abs(value);
-    value = next;
-    if (is_done) break;
-  }
-  return value;
+  c.slope = e.coefficients[0];
+  c.residual = e.coefficients[1];
+  c.violations = e.coefficients[2];
+  c.lead = e.coefficients[3];
+  c.offset = e.coefficients[4];
+  c.lapse = e.lapse;
 }
+
+struct Fit
+{
+  Logit logit;
+  Logit::Estimate estimate;
+  Coefficients coefficients;
+};
+
+constexpr std::size_t no_setting = (std::numeric_limits<std::size_t>::max)();
 
 // The most likely coefficients, of the number of surfels to within a factor of two.
-Coefficients fitted(const std::vector<Choice>& choices, std::size_t without, Coefficients c)
+Fit fit(const std::vector<Choice>& choices, const Coefficients& tables)
 {
-  double best = -(std::numeric_limits<double>::max)();
+  Fit best;
+  best.estimate.log_likelihood = -(std::numeric_limits<double>::max)();
   for (const double surfels : {25., 50., 100., 200., 400., 800.}) {
-    Features x;
-    const double value = fit(choices, without, surfels, x);
-    if (value <= best) continue;
-    best = value;
-    c.surfels = surfels;
-    c.slope = x[0];
-    c.residual = x[1];
-    c.violations = x[2];
-    c.offset = x[3];
+    const Logit law = logit(choices, surfels);
+    Logit::Estimate start;
+    start.lapse = 0.01;
+    const Logit::Estimate e = law.fit(no_setting, start, false);
+    if (e.log_likelihood <= best.estimate.log_likelihood) continue;
+    best = {law, e, tables};
+    best.coefficients.surfels = surfels;
+    set(e, best.coefficients);
   }
-  return c;
+  return best;
 }
 
 // The most probable pose of a choice: its probability, and whether it is the right one.
@@ -339,9 +309,8 @@ struct Answer
 Answer answer(const Choice& choice, const Coefficients& c)
 {
   std::vector<CRI::Judged_pose> poses(choice.poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    poses[i].log_odds = CRI::log_odds(choice.poses[i], choice.poses[i].nats, c);
-  CRI::share_probability(poses, &CRI::Judged_pose::log_odds);
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].log_odds = CRI::log_odds(choice.poses[i], c);
+  CRI::share_probability(poses, c);
   const auto best =
       std::max_element(poses.begin(), poses.end(), [](const CRI::Judged_pose& a, const CRI::Judged_pose& b) {
         return a.probability < b.probability;
@@ -420,11 +389,14 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
   list("wrong_fit", c.wrong_fit, 12);
   out << "  // log( P(right) / P(none) ) = slope sqrt(n / (n + surfels) evidence a probe) + residual (RMS of the "
          "probes that agree,\n"
-         "  // in tolerances) + violations sqrt(probes in free space a probe that agrees) + offset; n: of the scan "
-         "with fewer.\n"
+         "  // in tolerances) + violations sqrt(probes in free space a probe that agrees) + lead (root of the usual "
+         "evidence,\n"
+         "  // less that of the best candidate elsewhere) + offset; n: of the scan with fewer.\n"
          "  double surfels = "
       << c.surfels << ";\n  double slope = " << c.slope << ";\n  double residual = " << c.residual
-      << ";\n  double violations = " << c.violations << ";\n  double offset = " << c.offset
+      << ";\n  double violations = " << c.violations << ";\n  double lead = " << c.lead
+      << ";\n  double offset = " << c.offset
+      << ";\n  // Of the answers that obey no such law.\n  double lapse = " << c.lapse
       << ";\n};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
          "#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n";
 }
@@ -473,15 +445,18 @@ int main(int argc, char** argv)
     const Coefficients tables = measured_tables(for_tables);
     const std::vector<Choice> choices = choices_of(generation, tables);
     const std::size_t settings = choices.empty() ? 0 : choices.back().setting + 1;
+    const Fit all = fit(choices, tables);
+    // The lapse and the number of surfels are those of all settings: they are too seldom seen in one.
     for (std::size_t without = 0; without < settings; ++without) {
-      const Coefficients c = fitted(choices, without, tables);
+      Coefficients c = all.coefficients;
+      set(all.logit.fit(without, all.estimate, true), c);
       for (const Choice& choice : choices)
         if (choice.setting == without) answers.push_back(answer(choice, c));
     }
     const Calibration calibration = print_reliability(answers);
-    const Coefficients c = fitted(choices, settings, tables);
+    const Coefficients& c = all.coefficients;
     std::cout << "surfels " << c.surfels << ", slope " << c.slope << ", residual " << c.residual << ", violations "
-              << c.violations << ", offset " << c.offset << '\n';
+              << c.violations << ", lead " << c.lead << ", offset " << c.offset << ", lapse " << c.lapse << '\n';
     if (!output.empty()) {
       std::ostringstream how;
       how << "// " << settings << " settings, seeds " << generation.first_seed << " to "

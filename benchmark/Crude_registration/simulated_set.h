@@ -45,20 +45,28 @@ struct Sensor_model
   double waves = 0;            // noise that some samples side by side have in common
   double quantization = 0;
   double drop_out = 0.01, grazing_drop_out = 0.5;
-  double lost =
-      0; // share of the samples that are lost in patches, as dark or shining places are, and what is overexposed
+  // Share of the samples that are lost in patches, as dark or shining places are, and what is overexposed.
+  double lost = 0;
   bool is_perspective = false;
+  double warp = 0; // noise that a third of the image has in common, as of a camera that drifts or is badly calibrated
 };
 
-// From fine to coarse, clean to noisy: samples, noise, waves, quantization, drop-out, grazing drop-out, lost,
-// perspective.
+// From fine to coarse, clean to noisy, straight to warped: samples, noise, waves, quantization, drop-out, grazing
+// drop-out, lost, perspective, warp.
 inline std::vector<Sensor_model> all_sensors()
 {
-  return {{30000, 0.05, 0, 0, 0, 0.3, 0, false},        {30000, 0.3, 0, 0, 0.02, 0.7, 0.15, true},
-          {10000, 0.5, 1.5, 0.5, 0.02, 0.7, 0.1, true}, {15000, 1, 1, 0, 0.05, 0.8, 0.2, true},
-          {7000, 2, 0, 0, 0.2, 0.8, 0.05, true},        {2000, 0.2, 0, 0, 0.01, 0.5, 0.05, false},
-          {500, 0.1, 0, 0, 0, 0.3, 0, false},           {150000, 0.5, 0.5, 1, 0.01, 0.7, 0.1, true},
-          {30000, 0.2, 0, 2, 0.1, 0.9, 0.3, false}};
+  return {{30000, 0.05, 0, 0, 0, 0.3, 0, false},
+          {30000, 0.3, 0, 0, 0.02, 0.7, 0.15, true},
+          {10000, 0.5, 1.5, 0.5, 0.02, 0.7, 0.1, true},
+          {15000, 1, 1, 0, 0.05, 0.8, 0.2, true},
+          {7000, 2, 0, 0, 0.2, 0.8, 0.05, true},
+          {2000, 0.2, 0, 0, 0.01, 0.5, 0.05, false},
+          {500, 0.1, 0, 0, 0, 0.3, 0, false},
+          {150000, 0.5, 0.5, 1, 0.01, 0.7, 0.1, true},
+          {30000, 0.2, 0, 2, 0.1, 0.9, 0.3, false},
+          {30000, 0.2, 0.2, 0, 0.01, 0.5, 0.1, true, 1.5},
+          {150000, 0.3, 1, 0.5, 0.01, 0.7, 0.1, true, 5},
+          {12000, 0.5, 1, 0, 0.02, 0.7, 0.1, true, 2.5}};
 }
 
 class Simulated_set
@@ -180,12 +188,11 @@ private:
         ++lost;
       }
     }
-    // Between normal random numbers at every eighth sample.
-    constexpr std::size_t period = 8;
-    const auto wave = [&](std::size_t c, std::size_t r) {
-      const double x = double(c % period) / period, y = double(r % period) / period;
+    // Between normal random numbers at every `period`-th sample.
+    const auto wave = [&](std::size_t c, std::size_t r, std::size_t period, std::uint64_t stream) {
+      const double x = double(c % period) / double(period), y = double(r % period) / double(period);
       const auto at = [&](std::size_t i, std::size_t j) {
-        return random.normal(std::uint64_t(1) << 32 | (std::uint64_t(c / period + i) << 16 | (r / period + j)));
+        return random.normal(stream << 32 | (std::uint64_t(c / period + i) << 16 | (r / period + j)));
       };
       return (1 - x) * ((1 - y) * at(0, 0) + y * at(0, 1)) + x * ((1 - y) * at(1, 0) + y * at(1, 1));
     };
@@ -195,9 +202,11 @@ private:
       const auto i = std::size_t(image.grid()[r * columns + c]);
       if (is_lost[i]) continue;
       const auto& p = image.points()[i];
-      const double shift = sensor.waves > 0 ? sensor.waves * camera.spacing * wave(c, r) : 0;
+      double shift = 0; // in sampling distances
+      if (sensor.waves > 0) shift += sensor.waves * wave(c, r, 8, 1);
+      if (sensor.warp > 0) shift += sensor.warp * wave(c, r, (columns + 2) / 3, 2);
       const Kernel::Vector_3 sight = sensor.is_perspective ? p - CGAL::ORIGIN : Kernel::Vector_3(0, 0, -1);
-      result.set_sample(c, r, p + (shift / std::sqrt(sight.squared_length())) * sight);
+      result.set_sample(c, r, p + (shift * camera.spacing / std::sqrt(sight.squared_length())) * sight);
     }
     return result;
   }

@@ -185,6 +185,72 @@ BOOST_AUTO_TEST_CASE(the_right_one_of_many_poses_is_most_probable)
              2 * spacing);
 }
 
+BOOST_AUTO_TEST_CASE(the_rival_is_the_best_candidate_elsewhere)
+{
+  const Rigid_motion wanted = own(true_motion(a(), b()));
+  std::vector<Pose> proposed;
+  for (int i = 0; i < 12; ++i) proposed.push_back(to_pose(turned(wanted, 0.5 * i, Vector(0.02 * i, 0, 0))));
+  Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
+  judge.add_round(proposed, false, 8, proposed);
+  BOOST_TEST_REQUIRE(judge.candidates().size() > 2u);
+  const auto extent = float((std::min)(a().scan.reduced().extent, b().scan.reduced().extent));
+  const CR::internal::Evidence_coefficients c;
+  const auto usual = [&](const Pose& pose) {
+    const std::vector<std::uint8_t> outcomes = judge.outcomes(pose);
+    double sum = 0;
+    for (const std::uint8_t o : outcomes) {
+      if (o == CR::internal::Outcome::UNKNOWN) continue;
+      const int kind = o <= 12 ? 0 : o - 12;
+      const double log_ratio = std::log(c.right[kind] / c.wrong[kind]);
+      sum += kind > 0 ? (std::min)(log_ratio, 0.) : log_ratio + std::log(c.right_fit[o - 1] / c.wrong_fit[o - 1]);
+    }
+    return sum / double(outcomes.size());
+  };
+  for (const CR::internal::Judged_pose& p : judge.distinct_poses()) {
+    double rival = 0;
+    for (const Pose& candidate : judge.candidates())
+      if (!CR::internal::are_one(candidate, p.pose, extent)) rival = (std::max)(rival, usual(candidate));
+    BOOST_TEST(p.evidence.rival == rival, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(p.evidence.usual == usual(p.pose), boost::test_tools::tolerance(1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(odds_rise_with_what_speaks_for_a_pose)
+{
+  const CR::internal::Pose_evidence evidence{0.5, 0.4, 0.3, 0.01, 0.2, 10000};
+  const auto odds = [&](double CR::internal::Pose_evidence::*member, double change) {
+    CR::internal::Pose_evidence changed = evidence;
+    changed.*member += change;
+    return CR::internal::log_odds(changed);
+  };
+  using Evidence = CR::internal::Pose_evidence;
+  const double here = CR::internal::log_odds(evidence);
+  BOOST_TEST(odds(&Evidence::nats, 0.1) > here);
+  BOOST_TEST(odds(&Evidence::usual, 0.1) > here);
+  BOOST_TEST(odds(&Evidence::residual, 0.1) < here);
+  BOOST_TEST(odds(&Evidence::violations, 0.1) < here);
+  BOOST_TEST(odds(&Evidence::rival, 0.1) < here);
+  BOOST_TEST(odds(&Evidence::surfels, -9900) < here);
+}
+
+BOOST_AUTO_TEST_CASE(probabilities_of_poses_and_of_none_add_up_to_one)
+{
+  CR::internal::Evidence_coefficients c;
+  c.lapse = 0.03;
+  for (const double x : {-800., -3., 0., 5., 800.}) {
+    std::vector<CR::internal::Judged_pose> poses(2);
+    poses[0].log_odds = x;
+    poses[1].log_odds = 1;
+    CR::internal::share_probability(poses, c);
+    // By way of the one that is greatest.
+    const double greatest = (std::max)(x, 1.),
+                 all = std::exp(-greatest) + std::exp(x - greatest) + std::exp(1 - greatest);
+    BOOST_TEST(poses[0].probability == 0.97 * std::exp(x - greatest) / all + 0.01, boost::test_tools::tolerance(1e-12));
+    const double none = 0.97 * std::exp(-greatest) / all + 0.01;
+    BOOST_TEST(poses[0].probability + poses[1].probability + none == 1, boost::test_tools::tolerance(1e-12));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(without_free_space_nothing_is_violated)
 {
   Mesh statue;

@@ -17,7 +17,7 @@
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
-#include <CGAL/Crude_registration/internal/judgement/conclude.h>
+#include <CGAL/Crude_registration/internal/judgement/Verdict.h>
 #include <CGAL/Crude_registration/internal/motion/Refinement.h>
 #include <CGAL/Crude_registration/internal/pipeline/User_candidates.h>
 #include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
@@ -146,7 +146,7 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
     add_rival(outcomes[i], extent, best);
     add_stages(outcomes[i], best);
   }
-  if (control.is_stopped() && outcomes.size() > 1) best.verdict = interrupted(best.poses);
+  if (control.is_stopped() && outcomes.size() > 1) best.interrupt();
   return to_result<Kernel>(best);
 }
 

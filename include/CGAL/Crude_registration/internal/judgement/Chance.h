@@ -28,6 +28,28 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
+// What each outcome is evidence of as chance is between any two scans: log( P(o | right) / P(o | chance) ).
+inline std::array<double, Outcome::SIZE> usual_log_ratios(const Evidence_coefficients& c)
+{
+  std::array<double, Outcome::SIZE> result{};
+  for (int o = 1; o < Outcome::SIZE; ++o) {
+    const int kind = Outcome::kind(std::uint8_t(o));
+    const double log_ratio = std::log(c.right[kind] / c.wrong[kind]);
+    result[std::size_t(o)] =
+        o <= Outcome::fits ? log_ratio + std::log(c.right_fit[o - 1] / c.wrong_fit[o - 1]) : (std::min)(log_ratio, 0.);
+  }
+  return result;
+}
+
+// The evidence of `n` outcomes by these ratios, in nats.
+inline double usual_evidence(const std::uint8_t* outcomes, std::size_t n,
+                             const std::array<double, Outcome::SIZE>& log_ratios)
+{
+  double result = 0;
+  for (std::size_t i = 0; i < n; ++i) result += log_ratios[outcomes[i]];
+  return result;
+}
+
 // How often each outcome comes about by chance at each probe of a scan: what the probes meet under the candidates of
 // the pair, nearly all of which are wrong. Evidence for a pose is
 //   E = sum_i log( P(o_i | right) / P_i(o_i | chance) )
@@ -40,7 +62,7 @@ class Chance
 public:
   // `table`: the outcomes under distinct candidates; kept by reference, not to be changed.
   explicit Chance(const Outcome_table& table, const Evidence_coefficients& coefficients = {})
-      : m_table(table), m_coefficients(coefficients), m_usual(usual_log_ratios(coefficients)), m_counts(table.probes())
+      : m_table(table), m_coefficients(coefficients), m_counts(table.probes())
   {
     for (std::size_t k = 0; k < table.poses(); ++k) {
       for (std::size_t i = 0; i < table.probes(); ++i) {
@@ -93,27 +115,7 @@ public:
     return result;
   }
 
-  // The same were nothing known of the pair: by what is usual.
-  double usual_evidence(const std::uint8_t* outcomes) const
-  {
-    double result = 0;
-    for (std::size_t i = 0; i < m_table.probes(); ++i) result += m_usual[outcomes[i]];
-    return result;
-  }
-
 private:
-  static std::array<double, Outcome::SIZE> usual_log_ratios(const Evidence_coefficients& c)
-  {
-    std::array<double, Outcome::SIZE> result{};
-    for (int o = 1; o < Outcome::SIZE; ++o) {
-      const int kind = Outcome::kind(std::uint8_t(o));
-      const double log_ratio = std::log(c.right[kind] / c.wrong[kind]);
-      result[std::size_t(o)] = o <= Outcome::fits ? log_ratio + std::log(c.right_fit[o - 1] / c.wrong_fit[o - 1])
-                                                  : (std::min)(log_ratio, 0.);
-    }
-    return result;
-  }
-
   // log( P(o | agrees, right) / P(o | agrees, chance) ) for each outcome o; `counts`: of the candidates', to which each
   // adds what is usual of as many as there are.
   std::array<double, Outcome::SIZE> log_ratios_of_fits(const std::array<double, Outcome::SIZE>& counts) const
@@ -129,7 +131,6 @@ private:
 
   const Outcome_table& m_table;
   const Evidence_coefficients m_coefficients;
-  const std::array<double, Outcome::SIZE> m_usual;
   std::vector<std::array<std::int32_t, Outcome::kinds>> m_counts; // by probe
   std::array<double, Outcome::kinds> m_kinds{};
   std::array<double, Outcome::SIZE> m_fits{};

@@ -46,7 +46,7 @@ public:
       : m_source(source), m_target(target), m_execution(execution), m_control(control), m_coefficients(coefficients),
         m_fine_source_probes(source.fine, 0, 2500), m_fine_target_probes(target.fine, 0, 2500),
         m_source_probes(source.fine, 0, evidence_probes), m_target_probes(target.fine, 0, evidence_probes),
-        m_extent(float((std::min)(source.extent, target.extent))),
+        m_usual(usual_log_ratios(coefficients)), m_extent(float((std::min)(source.extent, target.extent))),
         m_fine_look(
             look_at(source.fine, target.fine, 4.3f, 2.4f, 3 * float((std::max)(source.spacing, target.spacing)))),
         m_tolerance(probe_tolerance(source.fine, target.fine, m_fine_look.free_depth))
@@ -83,7 +83,7 @@ public:
   std::vector<Judged_pose> distinct_poses() const
   {
     std::vector<Judged_pose> poses = distinct_by(&Judged_pose::log_odds);
-    share_probability(poses, &Judged_pose::log_odds);
+    share_probability(poses, m_coefficients);
     return poses;
   }
 
@@ -93,7 +93,7 @@ public:
   {
     std::vector<Judged_pose> poses = distinct_by(&Judged_pose::usual_log_odds);
     for (Judged_pose& p : poses) p.log_odds = p.usual_log_odds;
-    share_probability(poses, &Judged_pose::log_odds);
+    share_probability(poses, m_coefficients);
     return poses;
   }
 
@@ -175,8 +175,10 @@ private:
         m_candidates.push_back(p);
     m_source_outcomes.resize(m_candidates.size(), m_source_probes.size());
     m_target_outcomes.resize(m_candidates.size(), m_target_probes.size());
+    m_usual_evidence.resize(m_candidates.size());
     for_each_index(m_execution, m_candidates.size() - old, m_control, [&](std::size_t i) {
       look(m_candidates[old + i], m_source_outcomes[old + i], m_target_outcomes[old + i]);
+      m_usual_evidence[old + i] = usual(m_source_outcomes[old + i], m_target_outcomes[old + i]);
     });
   }
 
@@ -186,13 +188,24 @@ private:
     probe_outcomes(m_target_probes, m_source, pose.inverse(), m_tolerance, target);
   }
 
+  // The evidence of a probe as chance is between any two scans.
+  double usual(const std::uint8_t* source, const std::uint8_t* target) const
+  {
+    return (usual_evidence(source, m_source_probes.size(), m_usual) +
+            usual_evidence(target, m_target_probes.size(), m_usual)) /
+           double(m_source_probes.size() + m_target_probes.size());
+  }
+
   void weigh(Judged_pose& judged, const Chance& source_chance, const Chance& target_chance) const
   {
     std::vector<std::uint8_t> source(m_source_probes.size()), target(m_target_probes.size());
     look(judged.pose, source.data(), target.data());
     std::vector<std::size_t> near;
-    for (std::size_t k = 0; k < m_candidates.size(); ++k)
+    judged.evidence.rival = 0;
+    for (std::size_t k = 0; k < m_candidates.size(); ++k) {
       if (are_one(judged.pose, m_candidates[k], m_extent)) near.push_back(k);
+      else judged.evidence.rival = (std::max)(judged.evidence.rival, m_usual_evidence[k]);
+    }
     // The middle of each bin of the residuals.
     constexpr std::array<double, Outcome::residual_bins> residuals = {0.0625, 0.1875, 0.375, 0.75};
     double agreeing = 1, violating = 0, squares = residuals.back() * residuals.back(); // as if one more agreed, badly
@@ -207,13 +220,12 @@ private:
     const auto probes = double(source.size() + target.size());
     judged.evidence.nats =
         (source_chance.evidence(source.data(), near) + target_chance.evidence(target.data(), near)) / probes;
-    judged.evidence.usual =
-        (source_chance.usual_evidence(source.data()) + target_chance.usual_evidence(target.data())) / probes;
+    judged.evidence.usual = usual(source.data(), target.data());
     judged.evidence.residual = std::sqrt(squares / agreeing);
     judged.evidence.violations = violating / agreeing;
     judged.evidence.surfels = double((std::min)(m_source.fine.surfels.size(), m_target.fine.surfels.size()));
-    judged.log_odds = log_odds(judged.evidence, judged.evidence.nats, m_coefficients);
-    judged.usual_log_odds = log_odds(judged.evidence, judged.evidence.usual, m_coefficients);
+    judged.log_odds = log_odds(judged.evidence, m_coefficients);
+    judged.usual_log_odds = usual_log_odds(judged.evidence, judged.evidence.usual, m_coefficients);
   }
 
   const Reduced_scan& m_source;
@@ -222,11 +234,13 @@ private:
   Run_control& m_control;
   const Evidence_coefficients m_coefficients;
   const Probes m_fine_source_probes, m_fine_target_probes, m_source_probes, m_target_probes;
+  const std::array<double, Outcome::SIZE> m_usual;
   const float m_extent;
   const Look m_fine_look;
   const Probe_tolerance m_tolerance;
   std::vector<Pose> m_candidates; // distinct; with what the probes of the source and of the target meet under them
   Outcome_table m_source_outcomes, m_target_outcomes;
+  std::vector<double> m_usual_evidence; // of the candidates, a probe
   std::vector<Judged_pose> m_judged;
 };
 

@@ -16,6 +16,7 @@
 
 #include <CGAL/Crude_registration/Registration_status.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,17 @@ struct Verdict
   double confidence = 0;
   std::vector<std::string> free_motions;
 };
+
+// What is to be believed of a motion whose rivals have not all been looked for; `probability`: 0 where there is none.
+inline Verdict interrupted(double probability)
+{
+  Verdict verdict;
+  const bool is_plausible = probability >= plausible;
+  verdict.confidence = (std::min)(0.5, probability); // a rival may be as good
+  verdict.status = is_plausible ? AMBIGUOUS : NOT_REGISTERED;
+  verdict.reason = is_plausible ? "interrupted: the best motion so far" : "interrupted: no overlap found so far";
+  return verdict;
+}
 
 } // namespace internal
 } // namespace Crude_registration

@@ -54,18 +54,6 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, bool is_of_man
   return verdict;
 }
 
-// What is to be believed of poses whose rivals have not all been looked for.
-inline Verdict interrupted(const std::vector<Judged_pose>& poses)
-{
-  Verdict verdict;
-  const double confidence = poses.empty() ? 0 : poses.front().probability;
-  const bool is_plausible = confidence >= plausible;
-  verdict.confidence = (std::min)(0.5, confidence); // a rival may be as good
-  verdict.status = is_plausible ? AMBIGUOUS : NOT_REGISTERED;
-  verdict.reason = is_plausible ? "interrupted: the best motion so far" : "interrupted: no overlap found so far";
-  return verdict;
-}
-
 } // namespace internal
 } // namespace Crude_registration
 } // namespace CGAL

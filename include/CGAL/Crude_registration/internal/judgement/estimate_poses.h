@@ -15,6 +15,7 @@
 // Poses estimated again from the reduced surfaces, by some steps of refinement on the coarse surfels.
 
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/base/near_poses.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/motion/refine_step.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
@@ -65,30 +66,6 @@ inline void estimate_poses(const Reduced_scan& source, const Reduced_scan& targe
   });
   std::stable_sort(poses.begin(), poses.end(),
                    [](const Estimated_pose& a, const Estimated_pose& b) { return a.score > b.score; });
-}
-
-// Poses that refinement will most likely make one: within some spacings and degrees.
-inline bool are_close(const Pose& a, const Pose& b, float spacing)
-{
-  const float trace = (a.rotation.array() * b.rotation.array()).sum();
-  return trace > 2.989f && (a.translation - b.translation).squaredNorm() < 2.25f * spacing * spacing;
-}
-
-// Poses that are no more than 10 degrees and a twentieth of the extent apart.
-inline bool are_one(const Pose& a, const Pose& b, float extent)
-{
-  const float trace = (a.rotation.array() * b.rotation.array()).sum();
-  return trace > 1 + 2 * 0.985f && (a.translation - b.translation).norm() < 0.05f * extent;
-}
-
-// Which of two poses is nearer to a third one, turns being measured by what they move at half the extent.
-inline bool is_nearer(const Pose& a, const Pose& b, const Pose& to, float extent)
-{
-  const auto distance = [&](const Pose& p) {
-    const float r = 0.5f * extent;
-    return r * r * (p.rotation - to.rotation).squaredNorm() + (p.translation - to.translation).squaredNorm();
-  };
-  return distance(a) < distance(b);
 }
 
 // Poses that a few correspondences have given, estimated again from all of the coarse surfels that agree under them:

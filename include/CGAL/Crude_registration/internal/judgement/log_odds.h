@@ -25,27 +25,37 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// The logarithm of the odds that a pose is right, against none being right. What the probes say grows with the area
-// that agrees, and so does its variance: the root tells how far it is from chance. Probes side by side say the same, so
-// that it matters little how many there are, unless they are few. The residual tells wrong poses, which fill the
-// tolerance evenly, and what is in free space is there together, and says more than its probes. `nats`: of the
-// evidence, as chance is between the two scans or as it is between any.
-inline double log_odds(const Pose_evidence& evidence, double nats, const Evidence_coefficients& c = {})
+// The logarithm of the odds that a pose is right, against none being right, as chance is between any two scans, but for
+// the slope of what the probes say. What they say grows with the area that agrees, and so does its variance: the root
+// tells how far it is from chance. Probes side by side say the same, so that it matters little how many there are,
+// unless they are few. The residual tells wrong poses, which fill the tolerance evenly, and what is in free space is
+// there together, and says more than its probes. `nats`: of the evidence.
+inline double usual_log_odds(const Pose_evidence& evidence, double nats, const Evidence_coefficients& c = {})
 {
   const double effective = evidence.surfels / (evidence.surfels + c.surfels);
   return c.slope * std::sqrt(effective * (std::max)(nats, 0.)) + c.residual * evidence.residual +
          c.violations * std::sqrt(evidence.violations) + c.offset;
 }
 
-// The probabilities of distinct poses: P_k = exp(x_k) / (1 + sum_j exp(x_j)), x the log-odds `key`, the one being for
-// none of them (conditional logit, McFadden 1974).
-inline void share_probability(std::vector<Judged_pose>& poses, double Judged_pose::*key)
+// The same as chance is between the two scans: the evidence is weighed by it, and by how far the pose leads the best
+// candidate elsewhere. Where the scans fit each other in part in many ways, chance explains a right pose away, but no
+// other one comes near it.
+inline double log_odds(const Pose_evidence& evidence, const Evidence_coefficients& c = {})
+{
+  const double lead = std::sqrt((std::max)(evidence.usual, 0.)) - std::sqrt(evidence.rival);
+  return usual_log_odds(evidence, evidence.nats, c) + c.lead * lead;
+}
+
+// The probabilities of n distinct poses: P_k = (1 - l) exp(x_k) / (1 + sum_j exp(x_j)) + l / (n + 1), x the log-odds,
+// the one being for none of them (conditional logit, McFadden 1974), l the share of answers that obey no such law.
+inline void share_probability(std::vector<Judged_pose>& poses, const Evidence_coefficients& c = {})
 {
   double greatest = 0;
-  for (const Judged_pose& p : poses) greatest = (std::max)(greatest, p.*key);
+  for (const Judged_pose& p : poses) greatest = (std::max)(greatest, p.log_odds);
   double sum = std::exp(-greatest);
-  for (const Judged_pose& p : poses) sum += std::exp(p.*key - greatest);
-  for (Judged_pose& p : poses) p.probability = std::exp(p.*key - greatest) / sum;
+  for (const Judged_pose& p : poses) sum += std::exp(p.log_odds - greatest);
+  for (Judged_pose& p : poses)
+    p.probability = (1 - c.lapse) * std::exp(p.log_odds - greatest) / sum + c.lapse / double(poses.size() + 1);
 }
 
 // The probability that any of some distinct poses is right.

@@ -18,10 +18,10 @@
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/base/compiled.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
-#include <CGAL/Crude_registration/internal/judgement/Verdict.h>
-#include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
-#include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
+#include <CGAL/Crude_registration/internal/base/near_poses.h>
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
+#include <CGAL/Crude_registration/internal/judgement/Verdict.h>
+#include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 #include <CGAL/Crude_registration/internal/motion/twist.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
@@ -45,6 +45,9 @@ struct Registration_outcome
   Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
   Verdict verdict;
   std::vector<Stage_record> stages;
+
+  // The run was stopped before all rivals were looked for.
+  void interrupt() { verdict = interrupted(poses.empty() ? 0 : poses.front().probability); }
 
   Rigid_motion to_input(const Rigid_motion& own) const
   {

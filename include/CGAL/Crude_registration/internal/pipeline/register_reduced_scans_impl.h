@@ -135,7 +135,8 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   for (Vector_6& m : free) m = to_input * m;
   const Vector centre = outcome.target_frame.inverse()(own.translation);
   const Free_motions named = name_free_motions(free, outcome.is_swapped ? outcome.motion(centre) : centre, radius);
-  outcome.verdict = is_interrupted ? interrupted(outcome.poses) : judge_poses(outcome.poses, is_of_many, named);
+  if (is_interrupted) outcome.interrupt();
+  else outcome.verdict = judge_poses(outcome.poses, is_of_many, named);
 }
 
 // What is the same whatever is judged: `poses(judge, is_usual)` gives the poses, the one that is concluded of first, by
@@ -165,7 +166,7 @@ Registration_outcome registration_of(const Reduced_scan& a, const Reduced_scan& 
   propose_and_judge(*candidates, judge, judging, control, [&] { return are_enough(judge); });
   outcome.poses = poses(judge, false);
   if (outcome.poses.empty()) {
-    if (control.is_stopped()) outcome.verdict = interrupted(outcome.poses);
+    if (control.is_stopped()) outcome.interrupt();
     else outcome.verdict.reason = "no overlap found: no motion brings any part of the scans together";
   } else {
     bool is_of_many = false;
@@ -220,7 +221,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Redu
     std::vector<Judged_pose> all = {given};
     for (const Judged_pose& p : others)
       if (!judge.are_same(p.pose, given.pose)) all.push_back(p);
-    share_probability(all, &Judged_pose::log_odds);
+    share_probability(all);
     return all;
   };
   Judgement_outcome outcome;
