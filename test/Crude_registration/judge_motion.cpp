@@ -123,6 +123,30 @@ BOOST_AUTO_TEST_CASE(what_is_not_a_rigid_motion_is_refused)
     BOOST_CHECK_THROW(CR::judge_motion(a.scan, b.scan, m), std::invalid_argument);
 }
 
+// As it is found by a registration of both sides, it has to be right by a judgement, too.
+BOOST_AUTO_TEST_CASE(points_from_either_side)
+{
+  const View &a = view(0, 0), &b = view(0, 45);
+  const Scan a_points(a.image.points()), b_points(b.image.points());
+  BOOST_TEST_REQUIRE((a_points.other_side() != nullptr && b_points.other_side() != nullptr));
+  const Rigid_motion truth = true_motion(a, b);
+  const Scan* const a_sides[] = {&a_points, a_points.other_side(), &a.scan};
+  const Scan* const b_sides[] = {&b_points, b_points.other_side(), &b.scan};
+  std::size_t right_sides = 0;
+  for (const Scan* source : a_sides)
+    for (const Scan* target : b_sides) {
+      const auto judgement = CR::judge_motion(*source, *target, aff(truth));
+      right_sides += judgement.status() == CR::RIGHT_MOTION;
+      if (source->other_side() != nullptr && target->other_side() != nullptr) {
+        BOOST_TEST(judgement.status() == CR::RIGHT_MOTION);
+        BOOST_TEST(CR::judge_motion(*source, *target, aff(off(truth, a.centre, 120, Vector::Zero()))).status() ==
+                   CR::WRONG_MOTION);
+      }
+    }
+  // Each of either one's sides alone has a partner in two of three, at most.
+  BOOST_TEST(right_sides < 9u);
+}
+
 BOOST_AUTO_TEST_CASE(statuses_are_written_as_words)
 {
   std::ostringstream out;

@@ -147,10 +147,13 @@ Motion_judgement<Kernel> judge_motion(const Scan<Kernel>& source, const Scan<Ker
     throw std::invalid_argument("judge_motion: the motion is not rigid");
   const auto generator = internal::candidate_generator(np, "judge_motion");
   internal::Run_control control(internal::visitor_parameter(np), internal::time_budget_parameter(np, "judge_motion"));
-  const auto make_candidates = internal::candidate_factory<ConcurrencyTag>(generator, source, target);
-  const internal::Judgement_outcome outcome = internal::judge_reduced_motion(
-      source.reduced(), target.reduced(), given, make_candidates, internal::execution<ConcurrencyTag>(), control);
-  return {internal::to_result<Kernel>(outcome.registration), outcome.displacement};
+  const internal::Judgement_outcome outcome =
+      internal::best_of_sides(source, target, control, [&](const Scan<Kernel>& a, const Scan<Kernel>& b) {
+        return internal::judge_reduced_motion(a.reduced(), b.reduced(), given,
+                                              internal::candidate_factory<ConcurrencyTag>(generator, a, b),
+                                              internal::execution<ConcurrencyTag>(), control);
+      });
+  return {internal::to_result<Kernel>(outcome), outcome.displacement};
 }
 
 } // namespace Crude_registration

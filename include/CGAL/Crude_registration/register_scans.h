@@ -110,20 +110,11 @@ Candidate_factory candidate_factory(const Generator& generator, const Scan<Kerne
   };
 }
 
-template <class ConcurrencyTag, class Kernel, class Generator>
-Registration_outcome outcome_of(const Scan<Kernel>& source, const Scan<Kernel>& target, const Generator& generator,
-                                Run_control& control)
-{
-  return register_reduced_scans(source.reduced(), target.reduced(),
-                                candidate_factory<ConcurrencyTag>(generator, source, target),
-                                execution<ConcurrencyTag>(), control);
-}
-
 // Where nothing tells from which side a scan was seen, both are tried, until a motion is certain. The most probable one
-// counts; what other sides bring are its rivals.
-template <class ConcurrencyTag, class Kernel, class Generator>
-Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
-                                           const Generator& generator, Run_control& control)
+// counts; what other sides bring are its rivals. `run`: of a source and a target, a Registration_outcome or what
+// derives from it.
+template <class Kernel, class Run>
+auto best_of_sides(const Scan<Kernel>& source, const Scan<Kernel>& target, Run_control& control, const Run& run)
 {
   std::vector<std::pair<const Scan<Kernel>*, const Scan<Kernel>*>> sides = {{&source, &target}};
   const Scan<Kernel>*other_source = source.other_side(), *other_target = target.other_side();
@@ -133,21 +124,30 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
   if (sides.size() == 3 && are_swapped(source.reduced(), target.reduced())) std::swap(sides[1], sides[2]);
   if (other_source && other_target) sides.push_back({other_source, other_target});
   const double extent = (std::min)(source.extent(), target.extent());
-  std::vector<Registration_outcome> outcomes; // the best one first
+  std::vector<decltype(run(source, target))> outcomes; // the best one first
   for (std::size_t i = 0; i < sides.size(); ++i) {
     control.set_part(i, sides.size());
-    outcomes.push_back(outcome_of<ConcurrencyTag>(*sides[i].first, *sides[i].second, generator, control));
+    outcomes.push_back(run(*sides[i].first, *sides[i].second));
     if (is_better(outcomes.back(), outcomes.front())) std::swap(outcomes.back(), outcomes.front());
     const Verdict& verdict = outcomes.front().verdict;
     if (control.is_stopped() || (verdict.status == REGISTERED && verdict.confidence >= certain)) break;
   }
-  Registration_outcome& best = outcomes.front();
   for (std::size_t i = 1; i < outcomes.size(); ++i) {
-    add_rival(outcomes[i], extent, best);
-    add_stages(outcomes[i], best);
+    add_rival(outcomes[i], extent, outcomes.front());
+    add_stages(outcomes[i], outcomes.front());
   }
-  if (control.is_stopped() && outcomes.size() > 1) best.interrupt();
-  return to_result<Kernel>(best);
+  if (control.is_stopped() && outcomes.size() > 1) outcomes.front().interrupt();
+  return outcomes.front();
+}
+
+template <class ConcurrencyTag, class Kernel, class Generator>
+Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Scan<Kernel>& target,
+                                           const Generator& generator, Run_control& control)
+{
+  return to_result<Kernel>(best_of_sides(source, target, control, [&](const Scan<Kernel>& a, const Scan<Kernel>& b) {
+    return register_reduced_scans(a.reduced(), b.reduced(), candidate_factory<ConcurrencyTag>(generator, a, b),
+                                  execution<ConcurrencyTag>(), control);
+  }));
 }
 
 } // namespace internal

@@ -107,9 +107,8 @@ Registration_outcome register_reduced_scans(const Reduced_scan& a, const Reduced
 // What is to be said of a motion that somebody found, a to b in the frames of the input: of what refinement makes of
 // it, as of an answer of a registration; and how far that is from it, as a root mean square over the source's surface
 // where the scans overlap, in sampling distances.
-struct Judgement_outcome
+struct Judgement_outcome : Registration_outcome
 {
-  Registration_outcome registration;
   double displacement = 0;
 };
 

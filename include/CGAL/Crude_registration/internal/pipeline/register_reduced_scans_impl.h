@@ -225,24 +225,22 @@ CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Redu
     return all;
   };
   Judgement_outcome outcome;
-  outcome.registration =
+  static_cast<Registration_outcome&>(outcome) =
       registration_of(a, b, make_candidates, execution, control, poses, [&](const Pose_judge& judge) {
         const std::vector<Judged_pose> all = poses(judge, false);
         return !all.empty() && (all.front().probability >= certain || all.front().probability <= 1 - certain);
       });
-  if (outcome.registration.poses.empty()) return outcome;
-  Verdict& verdict = outcome.registration.verdict;
+  if (outcome.poses.empty()) return outcome;
+  Verdict& verdict = outcome.verdict;
   double rival = 0;
-  for (std::size_t i = 1; i < outcome.registration.poses.size(); ++i)
-    rival = (std::max)(rival, outcome.registration.poses[i].probability);
-  const double probability = outcome.registration.poses.front().probability;
+  for (std::size_t i = 1; i < outcome.poses.size(); ++i) rival = (std::max)(rival, outcome.poses[i].probability);
+  const double probability = outcome.poses.front().probability;
   if (verdict.status != NOT_REGISTERED && probability < 0.5 * rival) {
     verdict = Verdict();
     verdict.confidence = probability;
     verdict.reason = "another motion is far more probable";
   }
-  const Rigid_motion refined = target.own_from_input *
-                               (is_swapped ? outcome.registration.motion.inverse() : outcome.registration.motion) *
+  const Rigid_motion refined = target.own_from_input * (is_swapped ? outcome.motion.inverse() : outcome.motion) *
                                source.own_from_input.inverse();
   double squared = 0;
   std::size_t n = 0;
