@@ -100,7 +100,8 @@ private:
 whether refinement would take it there, or whether it is wrong.
 
 The motion is refined, and what comes of it is weighed as a registration weighs what it finds: by its evidence against
-that of other motions, which the search proposes.
+that of other motions, which the search proposes. Where nothing tells from which side a scan was seen, both sides are
+tried.
 
 \tparam ConcurrencyTag `CGAL::Sequential_tag` (default), `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`; the
         answer is the same, bit by bit, with any number of threads
