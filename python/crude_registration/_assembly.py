@@ -4,22 +4,141 @@
 from __future__ import annotations
 
 import concurrent.futures
+import functools
+import hashlib
 import os
 import typing
+
+import numpy
 
 from . import _core
 from ._types import AssemblyResult
 
 if typing.TYPE_CHECKING:
-    from ._core import RegistrationResult, Scan, _Progress, _Scan, _Three
+    from ._core import Scan, _Progress, _Scan, _Three
+
+_Viewpoint = typing.Optional[tuple[float, ...]]
 
 
-def _prepare(scan: _Scan, viewpoint: typing.Optional[_Three]) -> Scan:
-    return scan if isinstance(scan, _core.Scan) else _core.Scan(scan, viewpoint=viewpoint)
+class _File(typing.NamedTuple):
+    """A file that a scan is made of, as a task carries it."""
+
+    path: str
+    viewpoint: _Viewpoint
+    store: typing.Optional[str]
 
 
-def _register(source: Scan, target: Scan) -> RegistrationResult:
-    return _core.register(source, target, parallel=False)
+class _Place(typing.NamedTuple):
+    """Where a worker finds a prepared scan, and how it knows that it is the one that is meant."""
+
+    hash: str
+    file: typing.Optional[_File]
+    """What it is made of, if that is a file,"""
+    prepared: typing.Optional[str]
+    """the file of the store that has it prepared, if there is a store,"""
+    scan: typing.Optional[Scan]
+    """and where there is neither, the scan itself."""
+
+
+# Prepared scans, some megabytes each, that a worker keeps in its memory for the next pairs.
+_KEPT = 64
+
+
+def _stamp(path: str) -> tuple[int, int]:
+    """Another one where a file was written anew."""
+    try:
+        status = os.stat(_name_of_file(path))
+    except OSError:
+        return 0, 0  # who reads it says what is the matter
+    return status.st_mtime_ns, status.st_size
+
+
+def _name_of_file(path: str) -> str:
+    """Without the number of one of several scans in a file, FILE.ptx#2."""
+    name, mark, number = path.rpartition("#")
+    return name if mark and number.isdigit() and not os.path.exists(path) else path
+
+
+@functools.lru_cache(_KEPT)
+def _made(path: str, viewpoint: _Viewpoint, stamp: tuple[int, int]) -> Scan:
+    del stamp
+    return _core.Scan(path, viewpoint=viewpoint)
+
+
+@functools.lru_cache(_KEPT)
+def _loaded(path: str, stamp: tuple[int, int]) -> Scan:
+    del stamp
+    return _core.Scan.load(path)
+
+
+def _prepared_file(file: _File) -> str:
+    """The name in the store of what is prepared of a file, which is told by what is in it, wherever it lies."""
+    assert file.store is not None
+    content = hashlib.sha256(repr((os.path.basename(file.path), file.viewpoint)).encode(errors="surrogateescape"))
+    with open(_name_of_file(file.path), "rb") as data:
+        while part := data.read(1 << 20):
+            content.update(part)
+    return os.path.join(file.store, content.hexdigest() + ".scan")
+
+
+def _prepare_file(file: _File) -> tuple[_Place, typing.Optional[Scan]]:
+    """A task: prepares a file, or finds it prepared in the store. Without a store the scan comes back."""
+    prepared = None
+    scan = None
+    if file.store is not None and os.path.isfile(_name_of_file(file.path)):
+        prepared = _prepared_file(file)
+        try:
+            scan = _core.Scan.load(prepared)
+        except OSError:
+            pass  # it is not there, is damaged, or of another version
+    if scan is None:
+        scan = _core.Scan(file.path, viewpoint=file.viewpoint)
+        if prepared is not None:
+            scan.save(prepared)
+    place = _Place(_core.scan_hash(scan), file, prepared, None)
+    return place, scan if prepared is None else None
+
+
+def _prepare_here(scan: _Scan, viewpoint: _Viewpoint, store: typing.Optional[str]) -> tuple[_Place, Scan]:
+    """What is no file: arrays, which go to a task as they are, and what this process has made."""
+    if not isinstance(scan, _core.Scan):
+        scan = _core.Scan(scan, viewpoint=viewpoint)
+    content = _core.scan_hash(scan)
+    if store is None:
+        return _Place(content, None, None, scan), scan
+    prepared = os.path.join(store, content + ".scan")
+    if not os.path.exists(prepared):
+        scan.save(prepared)
+    return _Place(content, None, prepared, None), scan
+
+
+def _scan_at(place: _Place) -> Scan:
+    """In the process of a worker."""
+    if place.scan is not None:
+        return place.scan
+    if place.prepared is not None:
+        try:
+            scan = _loaded(place.prepared, _stamp(place.prepared))
+            if _core.scan_hash(scan) == place.hash:
+                return scan
+        except OSError:
+            if place.file is None:
+                raise
+    if place.file is None:
+        raise OSError(f"{place.prepared}: the file holds another scan than it did when it was prepared")
+    scan = _made(place.file.path, place.file.viewpoint, _stamp(place.file.path))
+    if _core.scan_hash(scan) != place.hash:
+        raise OSError(f"{place.file.path}: the file is another one than it was when it was prepared")
+    return scan
+
+
+def _register(source: _Place, target: _Place, store: typing.Optional[str]) -> str:
+    """A task: registers a pair, or finds it in the store."""
+    if store is not None:
+        answer = _core.stored_pair(store, source.hash, target.hash)
+        if answer is not None:
+            return answer
+    return _core.register_pair(_scan_at(source), _scan_at(target), store)
 
 
 _Answer = typing.TypeVar("_Answer")
@@ -45,6 +164,46 @@ def _answers(
             future.cancel()
 
 
+def _three_numbers(viewpoint: typing.Optional[_Three]) -> _Viewpoint:
+    if viewpoint is None:
+        return None
+    array = numpy.asarray(viewpoint)
+    if array.shape != (3,):
+        raise ValueError(f"assemble: viewpoint: three numbers are needed, not an array of shape {array.shape}")
+    return tuple(array.tolist())
+
+
+def _is_path(scan: _Scan) -> bool:
+    return isinstance(scan, (str, bytes, os.PathLike))
+
+
+def _prepared_by(
+    executor: concurrent.futures.Executor,
+    items: typing.Sequence[_Scan],
+    viewpoint: _Viewpoint,
+    store: typing.Optional[str],
+) -> tuple[list[_Place], list[Scan]]:
+    futures: dict[int, concurrent.futures.Future[typing.Any]] = {}
+    answers: dict[int, tuple[_Place, typing.Optional[Scan]]] = {}
+    for i, item in enumerate(items):
+        if _is_path(item):
+            # A worker may have another working directory.
+            path = os.path.abspath(os.fsdecode(typing.cast("os.PathLike[str]", item)))
+            futures[i] = executor.submit(_prepare_file, _File(path, viewpoint, store))
+        elif not isinstance(item, (_core.Scan, _core.ScanFile)):
+            futures[i] = executor.submit(_prepare_here, item, viewpoint, store)
+    answers.update(zip(futures, _answers(list(futures.values()), lambda: True) or []))
+    for i, item in enumerate(items):
+        if i not in answers:
+            answers[i] = _prepare_here(item, viewpoint, store)
+    places, scans = [], []
+    for i in range(len(items)):
+        place, scan = answers[i]
+        places.append(place)
+        scans.append(_scan_at(place) if scan is None else scan)
+    return places, scans
+
+
 def assemble(
     scans: typing.Iterable[_Scan],
     *,
@@ -63,13 +222,15 @@ def assemble(
     scans: in any order, each a Scan or what Scan() takes as points: the path of a file, an array, a ScanFile, a Mesh.
     executor: what prepares the scans and registers the pairs: anything with the interface of
         concurrent.futures.Executor, such as a ProcessPoolExecutor, Dask's Client.get_executor() or mpi4py's
-        MPIPoolExecutor. Its tasks are independent of each other; they carry paths or arrays, and prepared scans as
-        their bytes. The plan and the refinement of all poses stay in this process. The answer is the same, bit by bit,
-        with any executor and with none. A ScanFile is prepared here.
+        MPIPoolExecutor. Its tasks are independent of each other, and may be done again elsewhere where a worker dies.
+        Of files they carry the paths and the hashes of what is in them, which all workers have to see; of arrays what
+        is in them, unless there is a store. The plan and the refinement of all poses stay in this process. The answer
+        is the same, bit by bit, with any executor and with none.
     viewpoint: three numbers, where the sensor stood, in the own frame of each scan that is not a Scan; by default what
         its file says.
-    store: a folder that keeps the answer of each pair: a run that was ended, or has more scans, registers none of them
-        again. Without an executor only.
+    store: a folder, made if missing, that keeps the answer of each pair: a run that was ended, or has more scans,
+        registers none of them again. With an executor it keeps the prepared scans, too, some megabytes each, where
+        the workers find them; all of them have to see the folder.
     time_budget: seconds after which the registration of pairs ends, with what has been found.
     parallel: whether all processors of this machine are used for what is done here.
     progress: a function that is called with the share of the work that is done at most, and may end the run by
@@ -82,32 +243,29 @@ def assemble(
     <AssemblyResult: 3 scans in components of 3>
     """
     items = list(scans)
-    if executor is not None and store is not None:
-        raise ValueError("assemble: store is used without an executor only")
-    prepared: list[Scan] = []
+    folder = None if store is None else os.path.abspath(os.fsdecode(store))
+    where = _three_numbers(viewpoint)
+    places: list[_Place] = []
     if executor is None:
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count() if parallel else 1) as threads:
-            prepared = _answers([threads.submit(_prepare, s, viewpoint) for s in items], lambda: True) or []
+            futures = [
+                threads.submit(lambda s: s if isinstance(s, _core.Scan) else _core.Scan(s, viewpoint=where), item)
+                for item in items
+            ]
+            prepared = _answers(futures, lambda: True) or []
     else:
-        # What is no argument of a task, as it cannot be pickled or is done, is prepared here.
-        is_here = [isinstance(s, (_core.Scan, _core.ScanFile)) for s in items]
-        tasks = [executor.submit(_prepare, s, viewpoint) for s, here in zip(items, is_here) if not here]
-        answers = iter(_answers(tasks, lambda: True) or [])
-        prepared = [_prepare(s, viewpoint) if here else next(answers) for s, here in zip(items, is_here)]
+        if folder is not None:
+            os.makedirs(folder, exist_ok=True)
+        places, prepared = _prepared_by(executor, items, where, folder)
 
     def register_pairs(
         pairs: list[tuple[int, int]], go_on: typing.Callable[[], bool]
-    ) -> typing.Optional[list[RegistrationResult]]:
+    ) -> typing.Optional[list[str]]:
         assert executor is not None
-        return _answers([executor.submit(_register, prepared[i], prepared[j]) for i, j in pairs], go_on)
+        return _answers([executor.submit(_register, places[i], places[j], folder) for i, j in pairs], go_on)
 
     return _core.assemble_scans(
-        prepared,
-        None if executor is None else register_pairs,
-        None if store is None else os.fspath(store),
-        time_budget,
-        parallel,
-        progress,
+        prepared, None if executor is None else register_pairs, folder, time_budget, parallel, progress
     )
 
 

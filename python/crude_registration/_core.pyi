@@ -9,6 +9,7 @@ import numpy.typing
 
 from ._types import (
     AssemblyResult,
+    DepthCamera,
     Mesh,
     MotionJudgement,
     RefinedMotion,
@@ -32,6 +33,7 @@ class Scan:
         points: _Samples,
         faces: Optional[numpy.typing.ArrayLike] = None,
         *,
+        normals: Optional[numpy.typing.ArrayLike] = None,
         viewpoint: Optional[_Three] = None,
         viewing_direction: Optional[_Three] = None,
         method: str = "pairs",
@@ -69,6 +71,8 @@ class ScanFile:
     def points(self) -> _Floats: ...
     @property
     def faces(self) -> Optional[numpy.typing.NDArray[numpy.int32]]: ...
+    @property
+    def normals(self) -> Optional[_Floats]: ...
     @property
     def grid(self) -> Optional[numpy.typing.NDArray[numpy.int32]]: ...
     @property
@@ -122,14 +126,19 @@ class RegistrationResult:
 def assemble_scans(
     scans: Sequence[Scan],
     register_pairs: Optional[
-        Callable[[List[Tuple[int, int]], Callable[[], bool]], Optional[List[RegistrationResult]]]
+        Callable[[List[Tuple[int, int]], Callable[[], bool]], Optional[List[str]]]
     ] = None,
     store: Optional[str] = None,
     time_budget: Optional[float] = None,
     parallel: bool = True,
     progress: Optional[_Progress] = None,
 ) -> AssemblyResult: ...
-def read_scan(path: _Path) -> ScanFile: ...
+def register_pair(source: Scan, target: Scan, store: Optional[str] = None) -> str: ...
+def stored_pair(store: str, source: str, target: str) -> Optional[str]: ...
+def scan_hash(scan: Scan) -> str: ...
+def read_scan(
+    path: _Path, *, camera: Optional[Union[DepthCamera, Sequence[float], numpy.typing.ArrayLike]] = None
+) -> ScanFile: ...
 def register(
     source: _Scan,
     target: _Scan,

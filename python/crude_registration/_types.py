@@ -56,6 +56,21 @@ class ScanKind(enum.Enum):
         return self.value
 
 
+class DepthCamera(typing.NamedTuple):
+    """What makes points of a depth image: the value d in column u and row v, counted from 0, is the point
+    ((u - cx) z / fx, (v - cy) z / fy, z) with z = d / scale, in the frame of the camera, which looks along z."""
+
+    fx: float
+    """The focal lengths, in pixels."""
+    fy: float
+    cx: float
+    """The image of the optical axis, in pixels."""
+    cy: float
+    scale: float
+    """How many units of depth there are to the unit of length: 1000 where a value is in millimetres and points shall be
+    in metres."""
+
+
 class Mesh(typing.NamedTuple):
     """A triangle mesh."""
 
@@ -213,6 +228,7 @@ for _type in (
     RegistrationStatus,
     MotionStatus,
     ScanKind,
+    DepthCamera,
     Mesh,
     ScoredMotion,
     Stage,

@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // What crude_registration.assemble() is made of: the plan and its end here, the pairs wherever the caller has them
-// done.
+// done. The answer of a pair goes from there to here as the text that the store keeps of it.
 
 #include "arrays.h"
 #include "prepare.h"
@@ -41,8 +41,52 @@ std::string text_of(const Value& value)
   return text.str();
 }
 
+std::string to_text(const CRI::Pair_answer& answer)
+{
+  std::ostringstream text;
+  CRI::Pair_store::write(text, answer);
+  return text.str();
+}
+
+CRI::Pair_answer of_text(const std::string& text)
+{
+  std::istringstream in(text);
+  const std::optional<CRI::Pair_answer> answer = CRI::Pair_store::read(in);
+  if (!answer) throw py::value_error("assemble: a task has returned what is no answer of a pair");
+  return *answer;
+}
+
+// \throws py::value_error
+CRI::Content_hash hash_of_text(const std::string& text)
+{
+  const std::optional<CRI::Content_hash> hash = CRI::Content_hash::of_text(text);
+  if (!hash) throw py::value_error("assemble: '" + text + "' is no hash of a scan");
+  return *hash;
+}
+
+std::optional<std::string> stored_pair(const std::string& store, const std::string& source, const std::string& target)
+{
+  const std::string file = CRI::Pair_store(store).file(hash_of_text(source), hash_of_text(target));
+  py::gil_scoped_release unlocked;
+  const std::optional<CRI::Pair_answer> answer = CRI::Pair_store::read(file);
+  if (!answer) return std::nullopt;
+  return to_text(*answer);
+}
+
+std::string register_pair(const Scan& source, const Scan& target, const std::optional<std::string>& store)
+{
+  Interruption interruption{py::none()};
+  py::gil_scoped_release unlocked;
+  const CRI::Pair_answer answer = CRI::to_pair_answer(
+      CR::register_scans<CGAL::Sequential_tag>(source, target, p::visitor(std::ref(interruption))));
+  if (store)
+    CRI::Pair_store::write(
+        CRI::Pair_store(*store).file(CRI::content_hash(source), CRI::content_hash(target)), answer);
+  return to_text(answer);
+}
+
 // The pairs of each round are given to a function of Python, with one that says whether the run is to go on: a list of
-// their RegistrationResults is to come back, or None where it was not.
+// what register_pair() says of them is to come back, or None where it was not.
 CRI::Round_registration by_function(const py::object& function)
 {
   return [&function](const std::vector<CRI::Input_pair>& pairs, CRI::Run_control& control) {
@@ -55,7 +99,7 @@ CRI::Round_registration by_function(const py::object& function)
       if (!control.is_stopped()) throw py::value_error("assemble: the pairs of a round were not registered");
       return answers;
     }
-    for (const py::handle result : results) answers.push_back(CRI::to_pair_answer(result.cast<const Result&>()));
+    for (const py::handle result : results) answers.push_back(of_text(result.cast<std::string>()));
     if (answers.size() != pairs.size()) throw py::value_error("assemble: a round has other pairs than were asked for");
     return answers;
   };
@@ -126,5 +170,16 @@ void bind_assembly(py::module_& module)
       py::arg("time_budget") = py::none(), py::arg("parallel") = true, py::arg("progress") = py::none(),
       "assemble_scans(scans, register_pairs=None, store=None, time_budget=None, parallel=True, progress=None)\n--\n\n"
       "What assemble() does once all is prepared. register_pairs: a function of a list of pairs of places and of a "
-      "function\nthat says whether the run is to go on, which returns a list of RegistrationResults.");
+      "function\nthat says whether the run is to go on, which returns a list of what register_pair() returns.");
+  module.def(
+      "register_pair", &register_pair, py::arg("source"), py::arg("target"), py::arg("store") = py::none(),
+      "register_pair(source, target, store=None)\n--\n\n"
+      "What the registration of two Scans by this processor alone says to an assembly, as text; it is kept in the "
+      "folder\nstore, if that is given.");
+  module.def("stored_pair", &stored_pair, py::arg("store"), py::arg("source"), py::arg("target"),
+             "stored_pair(store, source, target)\n--\n\n"
+             "What register_pair() has kept in the folder store of two scans by their scan_hash(), or None.");
+  module.def(
+      "scan_hash", [](const Scan& scan) { return CRI::content_hash(scan).text(); }, py::arg("scan"),
+      "scan_hash(scan)\n--\n\nA text that tells the contents of a Scan from those of others.");
 }

@@ -49,6 +49,19 @@ Polygons to_polygons(const py::handle& object, std::size_t n, const std::string&
   return polygons;
 }
 
+// The normals of an array of shape (n, 3), of any length.
+std::vector<Vector> to_normals(const py::handle& object, std::size_t n, const std::string& argument)
+{
+  const py::array array = to_array(object, argument, "f");
+  if (array.ndim() != 2 || std::size_t(array.shape(0)) != n || array.shape(1) != 3)
+    throw py::value_error(argument + ": an array of shape (" + std::to_string(n) + ", 3) is needed, as of the points, not " +
+                          shape_of(array));
+  std::vector<Vector> normals;
+  normals.reserve(n);
+  for (const Point& q : to_points(to_coordinates(array, argument))) normals.emplace_back(q.x(), q.y(), q.z());
+  return normals;
+}
+
 // As read_scan() does with the faces of a file: those that name a vertex twice and points without a face are left out;
 // where the others are no manifold with consistent faces, they are turned and vertices are split until they are.
 Surface to_manifold(const std::vector<Point>& all_points, Polygons polygons)
@@ -111,7 +124,8 @@ std::optional<std::string> to_path(const py::handle& object)
   return path;
 }
 
-Scan_input to_input(const py::handle& object, const py::handle& faces, const std::string& argument)
+Scan_input to_input(const py::handle& object, const py::handle& faces, const py::handle& normals,
+                    const std::string& argument)
 {
   Scan_input input;
   input.name = argument;
@@ -120,17 +134,20 @@ Scan_input to_input(const py::handle& object, const py::handle& faces, const std
   const bool is_scan = py::isinstance<Scan>(object), is_file = py::isinstance<Scan_file>(object);
   if (!faces.is_none() && (is_mesh || path || is_scan || is_file))
     throw py::value_error(argument + ": faces are given with what has its own; they go with an array of points");
+  if (!normals.is_none() && (is_mesh || path || is_scan || is_file || !faces.is_none()))
+    throw py::value_error(argument + ": normals go with an array of points that has no faces");
   if (is_scan) input.scan = object.cast<std::shared_ptr<Scan>>();
   else if (is_file) input.file = object.cast<std::shared_ptr<Scan_file>>();
   else if (path) input.name = *path;
-  else if (is_mesh) return to_input(object.attr("points"), object.attr("faces"), argument);
+  else if (is_mesh) return to_input(object.attr("points"), object.attr("faces"), normals, argument);
   else {
     if (object.is_none()) throw py::type_error(argument + ": it is None");
     const py::array array = to_array(object, argument, "f");
     const bool is_list = array.ndim() == 2 && array.shape(1) == 3, is_grid = array.ndim() == 3 && array.shape(2) == 3;
-    if (!is_list && !(is_grid && faces.is_none()))
-      throw py::value_error(argument + ": an array of shape (n, 3)" +
-                            (faces.is_none() ? " or (rows, columns, 3)" : "") + " is needed, not " + shape_of(array));
+    const bool is_alone = faces.is_none() && normals.is_none();
+    if (!is_list && !(is_grid && is_alone))
+      throw py::value_error(argument + ": an array of shape (n, 3)" + (is_alone ? " or (rows, columns, 3)" : "") +
+                            " is needed, not " + shape_of(array));
     auto file = std::make_shared<Scan_file>();
     const auto coordinates = to_coordinates(array, argument);
     if (is_grid) {
@@ -142,6 +159,7 @@ Scan_input to_input(const py::handle& object, const py::handle& faces, const std
       file->mesh = to_manifold(points, to_polygons(faces, points.size(), argument + ": faces"));
     } else {
       file->points = to_points(coordinates);
+      if (!normals.is_none()) file->normals = to_normals(normals, file->points.size(), argument + ": normals");
     }
     input.file = std::move(file);
   }
@@ -150,7 +168,7 @@ Scan_input to_input(const py::handle& object, const py::handle& faces, const std
 
 Surface to_surface(const py::handle& object, const std::string& argument)
 {
-  const Scan_input input = to_input(object, py::none(), argument);
+  const Scan_input input = to_input(object, py::none(), py::none(), argument);
   if (input.scan) throw py::type_error(argument + ": a Scan has no mesh any more; give what it was made of");
   py::gil_scoped_release unlocked;
   const std::shared_ptr<const Scan_file> contents = input.contents();

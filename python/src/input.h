@@ -56,9 +56,11 @@ struct Scan_input
   }
 };
 
-// `object`: a path, an array of shape (n, 3) or (rows, columns, 3), a `Mesh`, a `ScanFile` or a `Scan`; `faces`: of
-// an array of shape (n, 3), or None. `argument`: how errors call it. \throws py::type_error, py::value_error
-Scan_input to_input(const py::handle& object, const py::handle& faces, const std::string& argument);
+// `object`: a path, an array of shape (n, 3) or (rows, columns, 3), a `Mesh`, a `ScanFile` or a `Scan`; `faces` or
+// `normals`: of an array of shape (n, 3), or None. `argument`: how errors call it.
+// \throws py::type_error, py::value_error
+Scan_input to_input(const py::handle& object, const py::handle& faces, const py::handle& normals,
+                    const std::string& argument);
 
 // The surface of an input that is no `Scan`. \throws py::type_error, CR::IO_error, std::invalid_argument
 Surface to_surface(const py::handle& object, const std::string& argument);

@@ -34,6 +34,8 @@ points: an array of float32 or float64, or anything that numpy.asarray() makes o
     or the path of a file (see read_scan()), a ScanFile, or a Mesh.
 faces: (m, 3) integers, the triangles of a mesh as rows of points, counterclockwise seen from the sensor or from
     outside. Where they are no manifold with consistent faces, they are turned and vertices are split until they are.
+normals: (n, 3) floats, of points of shape (n, 3) that have no faces: they tell from which side the surface was seen,
+    unless the sensor is given. Of any length; 0 0 0 where there is none.
 viewpoint: three numbers, where the sensor stood, in the frame and the unit of the points.
 viewing_direction: three numbers, the direction of parallel lines of sight from the sensor into the scene, instead.
 method: 'pairs', or 'trihedra' to register the scan by the method of the paper, too, for which it is simplified:
@@ -56,7 +58,7 @@ False
 )";
 
 const char* const scan_signature =
-    R"(__init__(self, points, faces=None, *, viewpoint=None, viewing_direction=None, method='pairs', approximation_error=None, number_of_vertices=None, cell_size=0.0, time_budget=None, progress=None)
+    R"(__init__(self, points, faces=None, *, normals=None, viewpoint=None, viewing_direction=None, method='pairs', approximation_error=None, number_of_vertices=None, cell_size=0.0, time_budget=None, progress=None)
 --
 
 Prepares a scan.)";
@@ -72,20 +74,31 @@ const char* const scan_file_doc =
 (50, 50)
 )";
 
-const char* const read_scan_doc = R"(read_scan(path)
+const char* const read_scan_doc = R"(read_scan(path, *, camera=None)
 --
 
 Reads a scan from a file, whatever it holds: PLY (with a range_grid, with faces, or points), PCD, PTX, OFF, OBJ, STL, LAS,
-NPY, points as text, and what the C++ function read_scan() lists. Raises OSError, whose text names the file and the line.
+NPY, PNG (depth images), points as text, and what the C++ function read_scan() lists. Returns a ScanFile.
+
+path: the name of the file; of several scans in a PTX file, 'FILE.ptx#2' is the second one's.
+camera: a DepthCamera, or its five numbers fx, fy, cx, cy, scale: of a depth image, whose points are in the frame of the
+    camera, which is their sensor.
+
+Raises OSError, whose text names the file and the line.
+
+>>> import crude_registration as cr
+>>> camera = cr.DepthCamera(fx=525, fy=525, cx=319.5, cy=239.5, scale=1000)
+>>> image = cr.read_scan("depth.png", camera=camera)  # doctest: +SKIP
 )";
 
-std::shared_ptr<Scan> make_scan(const py::object& points, const py::object& faces, const py::object& viewpoint,
-                                const py::object& viewing_direction, const std::string& method_name,
+std::shared_ptr<Scan> make_scan(const py::object& points, const py::object& faces, const py::object& normals,
+                                const py::object& viewpoint, const py::object& viewing_direction,
+                                const std::string& method_name,
                                 const std::optional<double>& approximation_error,
                                 const std::optional<long long>& number_of_vertices, double cell_size,
                                 const std::optional<double>& time_budget, const py::object& progress)
 {
-  const Scan_input input = to_input(points, faces, "Scan: points");
+  const Scan_input input = to_input(points, faces, normals, "Scan: points");
   if (input.scan) throw py::type_error("Scan: points: it is a Scan already");
   const Sensor_arguments sensor{to_point(viewpoint, "Scan: viewpoint"),
                                 to_vector(viewing_direction, "Scan: viewing_direction")};
@@ -106,6 +119,23 @@ std::string text_of(const Scan& scan)
   text << "<Scan of " << scan.number_of_samples() << " samples, spacing " << scan.spacing() << ", extent "
        << scan.extent() << (scan.has_free_space() ? ", free space known>" : ", free space not known>");
   return text.str();
+}
+
+CR::Depth_camera to_camera(const py::object& object)
+{
+  CR::Depth_camera camera;
+  if (object.is_none()) return camera;
+  const py::array array = to_array(object, "read_scan: camera", "fi");
+  if (array.ndim() != 1 || array.shape(0) != 5)
+    throw py::value_error("read_scan: camera: five numbers are needed, fx, fy, cx, cy and scale, not an array of shape " +
+                          shape_of(array));
+  const auto numbers = to_coordinates(array, "read_scan: camera");
+  camera.fx = numbers.at(0);
+  camera.fy = numbers.at(1);
+  camera.cx = numbers.at(2);
+  camera.cy = numbers.at(3);
+  camera.scale = numbers.at(4);
+  return camera;
 }
 
 // The path of a file that is written or read. \throws py::type_error
@@ -217,7 +247,8 @@ void bind_scans(py::module_& module)
   py::class_<Scan, std::shared_ptr<Scan>> scan(module, "Scan", scan_doc);
   scan.attr("__module__") = "crude_registration";
   scan.def(py::init(&make_scan), py::arg("points"), py::arg("faces") = py::none(), py::kw_only(),
-           py::arg("viewpoint") = py::none(), py::arg("viewing_direction") = py::none(), py::arg("method") = "pairs",
+           py::arg("normals") = py::none(), py::arg("viewpoint") = py::none(),
+           py::arg("viewing_direction") = py::none(), py::arg("method") = "pairs",
            py::arg("approximation_error") = py::none(), py::arg("number_of_vertices") = py::none(),
            py::arg("cell_size") = 0., py::arg("time_budget") = py::none(), py::arg("progress") = py::none(),
            scan_signature);
@@ -265,6 +296,13 @@ void bind_scans(py::module_& module)
         return to_mesh(f.mesh).attr("faces");
       },
       "(m, 3): the triangles of a mesh as rows of points; None for other kinds.");
+  file.def_property_readonly(
+      "normals", [](const Scan_file& f) -> py::object {
+        if (f.normals.empty()) return py::none();
+        return to_array(f.normals);
+      },
+      "(n, 3): the normals that the file has for its points, of length 1, or 0 0 0 where there is none; None if it has\n"
+      "none, and for meshes.");
   file.def_property_readonly("grid", &grid_of,
                              "(rows, columns): the row of points of each cell of a range image, -1 where there is no "
                              "sample; None for other kinds.");
@@ -298,10 +336,11 @@ void bind_scans(py::module_& module)
 
   module.def(
       "read_scan",
-      [](const py::object& object) {
+      [](const py::object& object, const py::object& camera_object) {
         const std::string path = needed_path(object, "read_scan");
+        const CR::Depth_camera camera = to_camera(camera_object);
         py::gil_scoped_release unlocked;
-        return std::make_shared<Scan_file>(CR::read_scan<Kernel>(path));
+        return std::make_shared<Scan_file>(CR::read_scan<Kernel>(path, camera));
       },
-      py::arg("path"), read_scan_doc);
+      py::arg("path"), py::kw_only(), py::arg("camera") = py::none(), read_scan_doc);
 }

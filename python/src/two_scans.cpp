@@ -33,7 +33,8 @@ struct Stop_flag
 
 Two_scans::Two_scans(const py::object& source, const py::object& target, const Sensor_objects& sensors,
                      const std::string& function)
-    : m_inputs{to_input(source, py::none(), function + ": source"), to_input(target, py::none(), function + ": target")}
+    : m_inputs{to_input(source, py::none(), py::none(), function + ": source"),
+               to_input(target, py::none(), py::none(), function + ": target")}
 {
   const auto viewpoint_of = [&](const py::object& object, const char* name) {
     return to_point(object, function + ": " + name);

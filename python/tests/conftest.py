@@ -68,6 +68,12 @@ def crude_register():
     return run
 
 
+def bits(result):
+    """All of an AssemblyResult but its times, as text that is the same for the same bits."""
+    scans = [(s.component, s.T_model_scan.tobytes(), s.reason, s.residual, s.covariance.tobytes()) for s in result.scans]
+    return repr((result.number_of_components, scans, result.edges, result.overlaps))
+
+
 def true_motion(source, target):
     return np.linalg.inv(target.T_scene_scan) @ source.T_scene_scan
 

@@ -122,6 +122,41 @@ def test_wrong_shapes_are_named(mesh):
         cr.Scan(mesh, mesh.faces)
 
 
+def test_normals_tell_the_side(views):
+    mesh = views[0].image.surface()
+    towards = np.tile([0.0, 0.0, 1.0], (len(mesh.points), 1))  # to the sensor, which looks along -z
+    facing, away = cr.Scan(mesh.points, normals=towards), cr.Scan(mesh.points, normals=-towards)
+    assert (facing.normals[:, 2] > 0).mean() > 0.95 and (away.normals[:, 2] < 0).mean() > 0.95
+    assert facing.to_bytes() != away.to_bytes() != cr.Scan(mesh.points).to_bytes()
+    # The directions of normals are those of the points; their length says nothing, nor does their layout.
+    for same in (1024 * towards, towards.astype(np.float32), np.asfortranarray(towards), towards.tolist(), towards[::-1]):
+        assert cr.Scan(mesh.points, normals=same).to_bytes() == facing.to_bytes()
+    some = towards.copy()
+    some[::3] = 0
+    assert (cr.Scan(mesh.points, normals=some).normals[:, 2] > 0).mean() > 0.95
+    # The sensor knows better.
+    assert cr.Scan(mesh.points, normals=-towards, viewpoint=(0, 0, 9)).normals[:, 2].mean() > 0
+
+
+def test_wrong_normals_are_named(mesh):
+    normals = np.ones_like(mesh.points)
+    for wrong, error in (
+        (normals[1:], rf"normals: an array of shape \({len(normals)}, 3\) is needed, as of the points, not \("),
+        (normals[:, :2], r"normals: an array of shape"),
+        (normals.ravel(), r"normals: an array of shape"),
+        (np.where(np.arange(len(normals))[:, None] == 5, np.nan, normals), "normal 5 .* not finite"),
+    ):
+        with pytest.raises(ValueError, match=error):
+            cr.Scan(mesh.points, normals=wrong)
+    with pytest.raises(TypeError, match="normals: the type of an array has to be float32 or float64, not int64"):
+        cr.Scan(mesh.points, normals=normals.astype(np.int64))
+    for arguments in ((mesh,), (mesh.points, mesh.faces), ("scan.ply",)):
+        with pytest.raises(ValueError, match="normals go with an array of points"):
+            cr.Scan(*arguments, normals=normals)
+    with pytest.raises(ValueError, match=r"\(n, 3\) is needed, not \(2, 2, 3\)"):
+        cr.Scan(np.zeros((2, 2, 3)), normals=np.zeros((4, 3)))
+
+
 def test_numbers_that_are_not_finite(mesh):
     for value in (np.nan, np.inf, -np.inf):
         points = mesh.points.copy()
@@ -216,6 +251,17 @@ def test_any_faces_are_a_scan_or_an_error(points, faces):
         return
     assert faces.size == 0 or faces.max() < len(points)
     assert scan.number_of_samples > 0
+
+
+@cases(200)
+@given(float_arrays, st.one_of(hnp.arrays(kinds, shapes), float_arrays, st.none()), sides)
+def test_any_normals_are_a_scan_or_an_error(points, normals, viewpoint):
+    try:
+        scan = cr.Scan(points, normals=normals, viewpoint=viewpoint)
+    except ERRORS:
+        return
+    assert normals is None or normals.shape == points.shape
+    assert np.allclose(np.linalg.norm(scan.normals, axis=1), 1)
 
 
 @cases(60)

@@ -3,17 +3,17 @@
 
 import concurrent.futures
 import multiprocessing
+import os
 import pickle
+import shutil
+import signal
 
 import numpy as np
 import pytest
+from conftest import bits, degrees_between, true_motion
 
 import crude_registration as cr
-from conftest import degrees_between, true_motion
-
-
-def bits(result):
-    return pickle.dumps((result.number_of_components, result.scans, result.edges, result.overlaps))
+from crude_registration import _assembly, _core
 
 
 @pytest.fixture(scope="module")
@@ -45,6 +45,11 @@ def test_the_same_bits_by_any_executor(alone, files, views):
         assert bits(cr.assemble(scans, executor=executor, parallel=False)) == bits(alone)
     with concurrent.futures.ThreadPoolExecutor(3) as executor:
         assert bits(cr.assemble([cr.read_scan(f) for f in files], executor=executor)) == bits(alone)
+        images = [v.image for v in views]
+        grids = [np.full(i.grid.shape + (3,), np.nan) for i in images]
+        for grid, image in zip(grids, images):
+            grid[image.grid >= 0] = image.points[image.grid[image.grid >= 0]]
+        assert bits(cr.assemble(grids, executor=executor)) == bits(cr.assemble(grids))
 
 
 class Counting(concurrent.futures.ThreadPoolExecutor):
@@ -101,7 +106,124 @@ def test_bad_arguments_are_named(files, tmp_path):
     with pytest.raises(FileNotFoundError, match="missing.ply"):
         cr.assemble([files[0], tmp_path / "missing.ply"])
     with concurrent.futures.ThreadPoolExecutor(1) as executor:
-        with pytest.raises(ValueError, match="store"):
-            cr.assemble(files, executor=executor, store=tmp_path)
+        with pytest.raises(FileNotFoundError, match="missing.ply"):
+            cr.assemble([files[0], tmp_path / "missing.ply"], executor=executor, store=tmp_path / "store")
+        with pytest.raises(OSError):
+            cr.assemble(files, executor=executor, store=files[0])
+    with pytest.raises(ValueError, match=r"viewpoint: three numbers are needed, not an array of shape \(2,\)"):
+        cr.assemble(files, viewpoint=(0, 1))
     with pytest.raises(ValueError, match="time_budget"):
         cr.assemble(files, time_budget=-1)
+
+
+class Weighing(concurrent.futures.ThreadPoolExecutor):
+    """Notes how many bytes each task has when it is sent to another process."""
+
+    def __init__(self):
+        super().__init__(1)
+        self.weights = []
+
+    def submit(self, function, /, *arguments, **named):
+        self.weights.append(len(pickle.dumps((function, arguments, named))))
+        return super().submit(function, *arguments, **named)
+
+
+def test_tasks_carry_paths_and_hashes_not_scans(alone, files, views, tmp_path):
+    with Weighing() as executor:
+        for arguments in ({}, {"store": tmp_path / "store"}):
+            assert bits(cr.assemble(files, executor=executor, **arguments)) == bits(alone)
+        # What is no file is found in the store, too.
+        scans = [cr.Scan(v.image) for v in views]
+        assert bits(cr.assemble(scans, executor=executor, store=tmp_path / "other")) == bits(alone)
+        assert max(executor.weights) < len(scans[0].to_bytes()) / 100
+        assert len(executor.weights) == 2 * len(files) + 3 * len(alone.edges)
+
+
+@pytest.fixture
+def counts(monkeypatch):
+    """How often a pair is registered, and a scan prepared, by the threads of this process."""
+    count = {"register_pair": 0, "Scan": 0}
+
+    def register_pair(*arguments):
+        count["register_pair"] += 1
+        return _core.register_pair(*arguments)
+
+    class Core:
+        def __getattr__(self, name):
+            return register_pair if name == "register_pair" else getattr(_core, name)
+
+        def __init__(self):
+            class Scan(_core.Scan):
+                def __init__(self, *arguments, **named):
+                    count["Scan"] += 1
+                    super().__init__(*arguments, **named)
+
+            self.Scan = Scan
+
+    monkeypatch.setattr(_assembly, "_core", Core())
+    return count
+
+
+def test_a_store_is_shared_by_all_runs(alone, files, tmp_path, counts):
+    store = tmp_path / "store"
+    with concurrent.futures.ThreadPoolExecutor(2) as executor:
+        assert bits(cr.assemble(files[:4], executor=executor, store=store)) == bits(cr.assemble(files[:4]))
+        first = dict(counts)
+        assert first["Scan"] == 4 + 4 and 3 <= first["register_pair"] <= 6
+        assert bits(cr.assemble(files, executor=executor, store=store)) == bits(alone)
+        assert counts["Scan"] == first["Scan"] + len(files) - 4
+        assert counts["register_pair"] == len(list(store.glob("*.pair"))) >= len(alone.edges)
+        second = dict(counts)
+        # Files are known by what is in them.
+        moved = tmp_path / "moved"
+        moved.mkdir()
+        copies = [shutil.copy(f, moved) for f in files]
+        assert bits(cr.assemble(copies, executor=executor, store=store)) == bits(alone)
+        assert counts == second
+        # Without an executor the same pairs are found.
+        kept = {p: p.stat().st_mtime_ns for p in store.iterdir()}
+        assert bits(cr.assemble(files, store=store)) == bits(alone)
+        assert {p: p.stat().st_mtime_ns for p in store.iterdir()} == kept
+
+
+def test_what_is_damaged_in_a_store_is_made_again(alone, files, tmp_path):
+    with concurrent.futures.ThreadPoolExecutor(1) as executor:
+        assert bits(cr.assemble(files, executor=executor, store=tmp_path)) == bits(alone)
+        for i, path in enumerate(sorted(tmp_path.iterdir())):
+            content = path.read_bytes()
+            path.write_bytes([content[: len(content) // 2], b"", b"x" + content[1:]][i % 3])
+        assert bits(cr.assemble(files, executor=executor, store=tmp_path)) == bits(alone)
+
+
+def test_a_file_that_changes_meanwhile_is_an_error(files, tmp_path):
+    copies = [tmp_path / f.name for f in files]
+    for file, copy in zip(files, copies):
+        shutil.copy(file, copy)
+
+    class Changing(concurrent.futures.ThreadPoolExecutor):
+        def submit(self, function, /, *arguments, **named):
+            if function is _assembly._register:
+                shutil.copy(files[0], copies[1])
+            return super().submit(function, *arguments, **named)
+
+    with Changing(1) as executor:
+        with pytest.raises(OSError, match="scan_1.ply: the file is another one"):
+            cr.assemble(copies, executor=executor)
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="there is no such signal")
+def test_a_pool_that_breaks_leaves_what_it_has_done(alone, files, tmp_path):
+    context = multiprocessing.get_context("spawn")
+
+    def kill_one(share):
+        if list(tmp_path.glob("*.pair")):
+            os.kill(next(iter(executor._processes)), signal.SIGKILL)
+
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as executor:
+        with pytest.raises(concurrent.futures.process.BrokenProcessPool):
+            cr.assemble(files, executor=executor, store=tmp_path, progress=kill_one)
+    kept = {p: p.stat().st_mtime_ns for p in tmp_path.glob("*.pair")}
+    assert kept
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as executor:
+        assert bits(cr.assemble(files, executor=executor, store=tmp_path)) == bits(alone)
+    assert all(path.stat().st_mtime_ns == time for path, time in kept.items())

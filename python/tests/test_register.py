@@ -197,6 +197,29 @@ def test_a_signal_ends_a_run():
         signal.signal(signal.SIGALRM, before)
 
 
+def test_ctrl_c_ends_a_registration(views):
+    scans = [cr.Scan(v.image) for v in views[:2]]
+    begun = []
+
+    def press(share):
+        if not begun:
+            begun.append(threading.Timer(0.01, os.kill, (os.getpid(), signal.SIGINT)))
+            begun[0].start()
+
+    for call in (
+        lambda: cr.register(views[0].image, views[1].image, progress=press),
+        lambda: cr.register(*scans, method="pairs", progress=press),
+        lambda: cr.judge(*scans, np.eye(4), progress=press),
+        lambda: cr.assemble([v.image for v in views], progress=press),
+    ):
+        begun.clear()
+        with pytest.raises(KeyboardInterrupt):
+            while True:
+                call()
+        begun[0].join()
+        cr.register(*scans)  # nothing is left behind
+
+
 def test_other_threads_go_on(views):
     big = cr.make_statue(resolution=300)
     counts = []

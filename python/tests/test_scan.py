@@ -4,6 +4,7 @@
 import copy
 import multiprocessing
 import pickle
+import struct
 import zlib
 
 import numpy as np
@@ -78,6 +79,60 @@ def test_what_a_file_says_is_told(views, tmp_path):
     assert cr.Scan(file, viewpoint=(0, 0, 6)).to_bytes() == cr.Scan(points, viewpoint=(0, 0, 6)).to_bytes()
     np.save(tmp_path / "cloud.npy", points)
     assert cr.Scan(tmp_path / "cloud.npy", viewpoint=(0, 0, 5)).to_bytes() == expected
+
+
+def write_depths(path, depths):
+    """A PNG file of one channel of 16 bits."""
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = b"".join(b"\0" + row.tobytes() for row in depths.astype(">u2"))
+    head = struct.pack(">IIBBBBB", depths.shape[1], depths.shape[0], 16, 0, 0, 0, 0)
+    parts = chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + parts)
+
+
+def test_depth_images_are_read_with_their_camera(tmp_path):
+    v, u = np.mgrid[0:40, 0:60]
+    depths = (1500 + 200 * np.sin(u / 9) + 150 * np.cos(v / 7)).astype(int)
+    depths[3, 5] = depths[20:22, 30] = 0
+    write_depths(tmp_path / "depth.png", depths)
+    camera = cr.DepthCamera(fx=50.0, fy=55.0, cx=29.5, cy=19.5, scale=1000.0)
+    try:
+        image = cr.read_scan(tmp_path / "depth.png", camera=camera)
+    except OSError as e:
+        if "libpng" in str(e):
+            pytest.skip("the module was built without libpng")
+        raise
+    assert image.kind is cr.ScanKind.RANGE_IMAGE and image.grid.shape == (40, 60) and image.missing == 3
+    assert np.array_equal(image.viewpoint, [0, 0, 0])
+    z = depths[depths > 0] / 1000
+    expected = np.stack([(u[depths > 0] - 29.5) * z / 50, (v[depths > 0] - 19.5) * z / 55, z], axis=1)
+    assert np.allclose(image.points, expected, rtol=1e-14) and (image.grid >= 0).sum() == len(z)
+    assert np.array_equal(cr.read_scan(tmp_path / "depth.png", camera=np.array(camera)).points, image.points)
+    scan = cr.Scan(image)
+    assert scan.has_free_space and cr.register(scan, scan).overlap > 0.9
+    for wrong in (None, camera._replace(fx=0.0), camera._replace(scale=float("nan"))):
+        with pytest.raises(OSError, match="depth.png: a depth image is read only with its camera"):
+            cr.read_scan(tmp_path / "depth.png", camera=wrong)
+    with pytest.raises(OSError, match="camera"):
+        cr.Scan(tmp_path / "depth.png")
+    for wrong in ((1, 2, 3), np.eye(5)):
+        with pytest.raises(ValueError, match="camera: five numbers are needed"):
+            cr.read_scan(tmp_path / "depth.png", camera=wrong)
+    with pytest.raises(TypeError, match="camera: the type of an array"):
+        cr.read_scan(tmp_path / "depth.png", camera="camera.json")
+
+
+def test_normals_of_a_file_are_told_and_used(views, tmp_path):
+    points = views[0].image.points
+    normals = np.tile([0.0, 0.0, 1.0], (len(points), 1))
+    np.save(tmp_path / "cloud.npy", np.hstack([points, normals]))
+    file = cr.read_scan(tmp_path / "cloud.npy")
+    assert np.array_equal(file.points, points) and np.array_equal(file.normals, normals)
+    assert views[0].image.normals is None
+    assert cr.Scan(file).to_bytes() == cr.Scan(points, normals=normals).to_bytes() != cr.Scan(points).to_bytes()
 
 
 def test_the_grid_is_that_of_the_points(views):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A program that mypy --strict has to accept: what the stubs promise to who uses the module."""
 
+import concurrent.futures
 import pathlib
 from typing import List, Optional, Tuple
 
@@ -17,9 +18,15 @@ def say(share: float) -> Optional[bool]:
     return None
 
 
-def use(points: Floats, faces: numpy.typing.NDArray[numpy.int32], path: pathlib.Path) -> Tuple[Floats, float]:
+def use(
+    points: Floats,
+    faces: numpy.typing.NDArray[numpy.int32],
+    path: pathlib.Path,
+    executor: concurrent.futures.Executor,
+) -> Tuple[Floats, float]:
     source = cr.Scan(points, faces, viewpoint=(0, 0, 1), progress=say)
     target = cr.Scan(path, method="trihedra")
+    target = cr.Scan(points, normals=points)
     result = cr.register(source, target, time_budget=3.0, progress=say)
     result = cr.register(path, "target.ply", viewpoint=numpy.zeros(3))
     if result.status is cr.RegistrationStatus.REGISTERED:
@@ -30,6 +37,12 @@ def use(points: Floats, faces: numpy.typing.NDArray[numpy.int32], path: pathlib.
     if cr.judge(source, path, refined.T_target_source).status is cr.MotionStatus.RIGHT:
         print(cr.judge(source, path, numpy.eye(4)).refined.overlap)
     image, T_scene_scan = cr.simulate(mesh, [1.0, 0.0, 0.0])
+    depths = cr.read_scan(path, camera=cr.DepthCamera(525, 525, 319.5, 239.5, 1000))
+    depths = cr.read_scan(path, camera=(525, 525, 319.5, 239.5, 1000))
+    if depths.normals is not None:
+        print(depths.normals.shape)
+    model = cr.assemble([source, path, points], executor=executor, store=path, progress=say)
+    print(model.components, model.scans[0].T_model_scan, model.edges[0].status is cr.EdgeStatus.USED)
     grid = image.grid
     if grid is not None:
         print(grid.shape)

@@ -56,6 +56,16 @@ Pair_answer to_pair_answer(const Registration_result<Kernel>& result)
   return answer;
 }
 
+// Of all that the registration of a scan with others depends on: where nothing tells the side that was seen, both are
+// tried.
+template <class Kernel>
+Content_hash content_hash(const Scan<Kernel>& scan)
+{
+  Content_hash hash = hash_of(scan.reduced());
+  hash.add(int(scan.other_side() != nullptr));
+  return hash;
+}
+
 template <class Kernel>
 Assembly_result<Kernel> to_assembly_result(const Assembly_outcome& outcome)
 {
@@ -196,7 +206,7 @@ auto assemble_scans(const ScanRange& scans, const NamedParameters& np = paramete
     const internal::Pair_store store(internal::parameter(np, internal_np::store, std::string()));
     std::vector<internal::Content_hash> hashes;
     hashes.reserve(reduced.size());
-    for (const internal::Reduced_scan* scan : reduced) hashes.push_back(internal::hash_of(*scan));
+    for (const auto& scan : scans) hashes.push_back(internal::content_hash(scan));
     register_pair = [store, hashes, &register_now](std::size_t i, std::size_t j, internal::Run_control& task) {
       const std::string file = store.file(hashes[i], hashes[j]);
       if (const auto answer = internal::Pair_store::read(file)) return *answer;

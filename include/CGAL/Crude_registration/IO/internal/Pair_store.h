@@ -21,11 +21,15 @@
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <ios>
+#include <istream>
+#include <limits>
 #include <locale>
 #include <optional>
 #include <ostream>
@@ -59,6 +63,20 @@ public:
   void add(const Content_hash& other)
   {
     for (const std::uint64_t lane : other.m_lanes) add(lane);
+  }
+
+  // The hash whose text() this is; nothing where it is none.
+  static std::optional<Content_hash> of_text(const std::string& hexadecimal)
+  {
+    Content_hash hash;
+    if (hexadecimal.size() != 16 * hash.m_lanes.size()) return std::nullopt;
+    const char* first = hexadecimal.data();
+    for (std::uint64_t& lane : hash.m_lanes) {
+      const auto r = std::from_chars(first, first + 16, lane, 16);
+      if (r.ec != std::errc() || r.ptr != first + 16) return std::nullopt;
+      first += 16;
+    }
+    return hash;
   }
 
   std::string text() const
@@ -119,6 +137,11 @@ public:
   static std::optional<Pair_answer> read(const std::string& file)
   {
     std::ifstream in(file, std::ios::binary);
+    return read(in);
+  }
+
+  static std::optional<Pair_answer> read(std::istream& in)
+  {
     in.imbue(std::locale::classic());
     Pair_answer answer;
     std::string word;
@@ -144,18 +167,23 @@ public:
   // Whole or not at all. \throws IO_error
   static void write(const std::string& file, const Pair_answer& answer)
   {
-    write_file(file, [&](std::ostream& out) {
-      out << head << '\n' << answer.reason << '\n';
-      out << int(answer.status) << ' ' << answer.overlap << ' ' << answer.residual << ' ' << answer.motions.size();
-      for (const Ranked_motion& m : answer.motions) {
-        out << '\n' << m.probability;
-        for (int i = 0; i < 3; ++i) {
-          for (int j = 0; j < 3; ++j) out << ' ' << m.motion.rotation(i, j);
-          out << ' ' << m.motion.translation[i];
-        }
+    write_file(file, [&](std::ostream& out) { write(out, answer); });
+  }
+
+  static void write(std::ostream& out, const Pair_answer& answer)
+  {
+    out.imbue(std::locale::classic());
+    out.precision(std::numeric_limits<double>::max_digits10);
+    out << head << '\n' << answer.reason << '\n';
+    out << int(answer.status) << ' ' << answer.overlap << ' ' << answer.residual << ' ' << answer.motions.size();
+    for (const Ranked_motion& m : answer.motions) {
+      out << '\n' << m.probability;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) out << ' ' << m.motion.rotation(i, j);
+        out << ' ' << m.motion.translation[i];
       }
-      out << "\nend\n";
-    });
+    }
+    out << "\nend\n";
   }
 
 private:
