@@ -334,6 +334,18 @@ BOOST_AUTO_TEST_CASE(given_normals_tell_the_side)
   BOOST_TEST(samples.is_side_known);
   for (std::size_t i = 0; i < samples.points.size(); ++i)
     BOOST_TEST_REQUIRE(samples.normals[i].dot(samples.points[i]) < 0);
+  // Points of which no normal is given have the side of their neighbours; those that have none are left out.
+  Cloud some = cloud;
+  const Vector far_away(20, 0, 0);
+  for (const Vector& p : sphere(1000).points) some.points.push_back(p + far_away);
+  some.normals.resize(some.points.size(), Vector::Zero());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (i % 5 < 1 || cloud.points[i].x() > 0.8) some.normals[i] = Vector::Zero();
+  const Oriented_points neighbours = orient_points(some.points, some.normals, {});
+  BOOST_TEST(neighbours.is_side_known);
+  BOOST_TEST(neighbours.points.size() > 0.9 * double(samples.points.size()));
+  for (std::size_t i = 0; i < neighbours.points.size(); ++i)
+    BOOST_TEST_REQUIRE(neighbours.normals[i].dot(neighbours.points[i]) < 0);
   // Normals that are all null say nothing.
   const Oriented_points null = orient_points(cloud.points, std::vector<Vector>(3000, Vector::Zero()), {});
   for (std::size_t i = 0; i < null.points.size(); ++i) BOOST_TEST_REQUIRE(null.normals[i].dot(null.points[i]) > 0);

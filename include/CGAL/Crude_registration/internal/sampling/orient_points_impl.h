@@ -148,19 +148,33 @@ inline void turn_towards(const Flat_sensor& sensor, double grazing, Samples_with
   }
 }
 
-// Turns the samples to the side of normals that are given with the points; false where they do not say one.
-inline bool turn_as_given(const Evened_points& evened, const std::vector<Vector>& given, Samples_without_side& samples)
+// Turns the samples to the side of normals that are given with the points; false where they do not say one for most.
+// Those of which none is given have the side that their neighbours tell, or, where none of these is told, are left out
+// by a null normal.
+inline bool turn_as_given(const Evened_points& evened, const std::vector<Vector>& given, double cell,
+                          Run_control& control, Samples_without_side& samples)
 {
   std::vector<Vector> sums(evened.level(0).points.size(), Vector::Zero());
   evened.for_each_member([&](std::size_t i, std::size_t member) { sums[member] += unit_or_zero(given[i]); });
-  std::size_t without = 0;
-  for (std::size_t i = 0; i < samples.points.size(); ++i) {
+  const std::size_t n = samples.points.size();
+  std::vector<std::uint8_t> is_given(n);
+  for (std::size_t i = 0; i < n; ++i) {
     Vector& normal = samples.normals[i];
     const double along = (evened.axes().transpose() * sums[samples.index[i]]).dot(normal);
-    without += along == 0;
+    is_given[i] = std::uint8_t(along != 0);
     if (along < 0) normal = -normal;
   }
-  return 2 * without < samples.points.size();
+  const auto number_given = std::size_t(std::count(is_given.begin(), is_given.end(), std::uint8_t(1)));
+  if (2 * number_given <= n) return false;
+  if (number_given == n) return true;
+  Sides_of_points sides(samples.points, samples.normals, samples.reaches, cell, is_given, control);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_given[i]) continue;
+    const auto [root, is_opposite] = sides.side(i);
+    if (!is_given[root]) samples.normals[i] = Vector::Zero();
+    else if (is_opposite) samples.normals[i] = -samples.normals[i];
+  }
+  return true;
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE Oriented_points orient_points(const std::vector<Vector>& points,
@@ -190,7 +204,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Oriented_points orient_points(const std::vector<V
     turn_towards(
         {sensor.kind, is_far ? Vector(evened.axes().transpose() * sensor.vector) : evened.to_local(sensor.vector)},
         grazing_cosine, samples);
-  } else if (normals.empty() || !turn_as_given(evened, normals, samples)) {
+  } else if (normals.empty() || !turn_as_given(evened, normals, fits.radius(0), control, samples)) {
     const Lines_of_sight lines = lines_of_sight(evened, samples);
     if (const std::optional<Vector> place = Sensor_place(lines, control).find()) {
       turn_towards({Flat_sensor::PERSPECTIVE, *place}, 0, samples);
