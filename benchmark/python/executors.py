@@ -34,7 +34,7 @@ NAMES = {"processes": "`ProcessPoolExecutor`", "dask": "Dask, `LocalCluster`", "
 
 
 def simulate_scans(folder, number, samples):
-    """Views from all around a body, but from below and above, at two distances of samples of noise."""
+    """Views from all around a body."""
     statue = cr.make_statue(resolution=64)
     golden = math.pi * (3 - math.sqrt(5))  # the angle that spreads directions evenly
     for i in range(number):

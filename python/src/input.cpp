@@ -15,12 +15,13 @@
 #include <CGAL/Crude_registration/IO/triangulate_scan.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/manifoldness.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -81,13 +82,21 @@ Surface to_manifold(const std::vector<Point>& all_points, Polygons polygons)
   }
   for (auto& f : polygons)
     for (std::size_t& v : f) v = new_index[v];
-  if (!PMP::is_polygon_soup_a_polygon_mesh(polygons)) PMP::orient_polygon_soup(points, polygons);
-  CR::internal::Flat_scan_file flat;
-  for (const Point& q : points) flat.points.push_back(CR::internal::to_vector(q));
-  flat.polygons = std::move(polygons);
-  Surface mesh;
-  CR::internal::add_polygons(flat, mesh);
-  return mesh;
+  const auto to_mesh = [&] {
+    CR::internal::Flat_scan_file flat;
+    for (const Point& q : points) flat.points.push_back(CR::internal::to_vector(q));
+    flat.polygons = polygons;
+    Surface mesh;
+    CR::internal::add_polygons(flat, mesh);
+    return mesh;
+  };
+  // (Quicker than PMP::is_polygon_soup_a_polygon_mesh(), where it is one.)
+  Surface mesh = to_mesh();
+  std::vector<Surface::Halfedge_index> halfedges;
+  PMP::non_manifold_vertices(mesh, std::back_inserter(halfedges));
+  if (mesh.number_of_faces() == polygons.size() && halfedges.empty()) return mesh;
+  PMP::orient_polygon_soup(points, polygons);
+  return to_mesh();
 }
 
 // The grid of an array of shape (rows, columns, 3): where a coordinate is NaN there is no sample.
