@@ -42,6 +42,10 @@ from ._types import (
     Stage,
 )
 
+for _function in (judge, make_statue, read_scan, refine, register, simplify, simulate):
+    _function.__module__ = __name__
+del _function
+
 __all__ = [
     "AssembledScan",
     "AssemblyEdge",

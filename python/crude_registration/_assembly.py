@@ -270,3 +270,4 @@ def assemble(
 
 
 assemble.__module__ = "crude_registration"
+assemble.__annotations__.clear()  # help() would show them as text; type checkers read the source

@@ -77,11 +77,10 @@ std::string register_pair(const Scan& source, const Scan& target, const std::opt
 {
   Interruption interruption{py::none()};
   py::gil_scoped_release unlocked;
-  const CRI::Pair_answer answer = CRI::to_pair_answer(
-      CR::register_scans<CGAL::Sequential_tag>(source, target, p::visitor(std::ref(interruption))));
+  const CRI::Pair_answer answer =
+      CRI::to_pair_answer(CR::register_scans<CGAL::Sequential_tag>(source, target, p::visitor(std::ref(interruption))));
   if (store)
-    CRI::Pair_store::write(
-        CRI::Pair_store(*store).file(CRI::content_hash(source), CRI::content_hash(target)), answer);
+    CRI::Pair_store::write(CRI::Pair_store(*store).file(CRI::content_hash(source), CRI::content_hash(target)), answer);
   return to_text(answer);
 }
 

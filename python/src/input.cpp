@@ -55,8 +55,8 @@ std::vector<Vector> to_normals(const py::handle& object, std::size_t n, const st
 {
   const py::array array = to_array(object, argument, "f");
   if (array.ndim() != 2 || std::size_t(array.shape(0)) != n || array.shape(1) != 3)
-    throw py::value_error(argument + ": an array of shape (" + std::to_string(n) + ", 3) is needed, as of the points, not " +
-                          shape_of(array));
+    throw py::value_error(argument + ": an array of shape (" + std::to_string(n) +
+                          ", 3) is needed, as of the points, not " + shape_of(array));
   std::vector<Vector> normals;
   normals.reserve(n);
   for (const Point& q : to_points(to_coordinates(array, argument))) normals.emplace_back(q.x(), q.y(), q.z());

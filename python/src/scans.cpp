@@ -93,8 +93,7 @@ Raises OSError, whose text names the file and the line.
 
 std::shared_ptr<Scan> make_scan(const py::object& points, const py::object& faces, const py::object& normals,
                                 const py::object& viewpoint, const py::object& viewing_direction,
-                                const std::string& method_name,
-                                const std::optional<double>& approximation_error,
+                                const std::string& method_name, const std::optional<double>& approximation_error,
                                 const std::optional<long long>& number_of_vertices, double cell_size,
                                 const std::optional<double>& time_budget, const py::object& progress)
 {
@@ -127,8 +126,9 @@ CR::Depth_camera to_camera(const py::object& object)
   if (object.is_none()) return camera;
   const py::array array = to_array(object, "read_scan: camera", "fi");
   if (array.ndim() != 1 || array.shape(0) != 5)
-    throw py::value_error("read_scan: camera: five numbers are needed, fx, fy, cx, cy and scale, not an array of shape " +
-                          shape_of(array));
+    throw py::value_error(
+        "read_scan: camera: five numbers are needed, fx, fy, cx, cy and scale, not an array of shape " +
+        shape_of(array));
   const auto numbers = to_coordinates(array, "read_scan: camera");
   camera.fx = numbers.at(0);
   camera.fy = numbers.at(1);
@@ -297,11 +297,13 @@ void bind_scans(py::module_& module)
       },
       "(m, 3): the triangles of a mesh as rows of points; None for other kinds.");
   file.def_property_readonly(
-      "normals", [](const Scan_file& f) -> py::object {
+      "normals",
+      [](const Scan_file& f) -> py::object {
         if (f.normals.empty()) return py::none();
         return to_array(f.normals);
       },
-      "(n, 3): the normals that the file has for its points, of length 1, or 0 0 0 where there is none; None if it has\n"
+      "(n, 3): the normals that the file has for its points, of length 1, or 0 0 0 where there is none; None if it "
+      "has\n"
       "none, and for meshes.");
   file.def_property_readonly("grid", &grid_of,
                              "(rows, columns): the row of points of each cell of a range image, -1 where there is no "

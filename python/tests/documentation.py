@@ -3,6 +3,8 @@
 
 import doctest
 import inspect
+import itertools
+import re
 import sys
 
 import crude_registration as cr
@@ -25,6 +27,18 @@ for name in ["", *cr.__all__]:
             if not member.startswith("_") and not (inspect.getdoc(value) or "").strip():
                 print(f"{label}.{member} is not documented")
                 failures += 1
+    if inspect.isclass(thing):
+        fields = (getattr(thing, name, ()) for name in ("_fields", "__dataclass_fields__", "__members__"))
+        for member in itertools.chain(*fields):
+            if not re.search(rf"^(\w+, )*{member}(, \w+)*: ", text, re.MULTILINE):
+                print(f"{label}.{member} is not documented")
+                failures += 1
+    if thing is not cr and thing.__module__ != "crude_registration":
+        print(label, "is said to be in", thing.__module__)
+        failures += 1
+    if inspect.isroutine(thing) and "typing" in str(inspect.signature(thing)):
+        print(label, "has a signature that help() shows badly")
+        failures += 1
     if inspect.isbuiltin(thing):
         inspect.signature(thing)  # a ValueError where help() cannot show one
 if examples < 20:
