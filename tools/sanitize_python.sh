@@ -2,7 +2,8 @@
 # Runs the tests of the Python module under AddressSanitizer and UndefinedBehaviorSanitizer: tools/sanitize_python.sh
 #
 # Builds in build-python-address/. The interpreter itself is not instrumented: the runtime is loaded before it, and what
-# the interpreter leaves behind at its end is no finding. Arguments are those of pytest (`-k register`).
+# the interpreter leaves behind at its end is no finding. Arguments are those of pytest (`-k register`). Dask and MPI are
+# left out: their processes are not ours.
 # CRUDE_REGISTRATION_CASES=2000 asks for more generated arrays, other ones each time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -22,4 +23,4 @@ python=$(sed -n 's/^CRUDE_REGISTRATION_PYTHON:.*=//p' "$build/CMakeCache.txt")
 cd "$build/python"
 PYTHONPATH=$PWD PYTHONDONTWRITEBYTECODE=1 PYTHONMALLOC=malloc UBSAN_OPTIONS=print_stacktrace=1 \
   ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 LD_PRELOAD=$runtime \
-  "$python" -m pytest -q -p no:cacheprovider "$root/python/tests" "$@"
+  "$python" -m pytest -q -p no:cacheprovider "$root/python/tests" --ignore="$root/python/tests/test_clusters.py" "$@"

@@ -15,7 +15,7 @@ from . import _core
 from ._types import AssemblyResult
 
 if typing.TYPE_CHECKING:
-    from ._core import Scan, _Progress, _Scan, _Three
+    from ._core import Scan, _Path, _Progress, _Scan, _Three
 
 _Viewpoint = typing.Optional[tuple[float, ...]]
 
@@ -134,11 +134,12 @@ def _scan_at(place: _Place) -> Scan:
 
 def _register(source: _Place, target: _Place, store: typing.Optional[str]) -> str:
     """A task: registers a pair, or finds it in the store."""
-    if store is not None:
-        answer = _core.stored_pair(store, source.hash, target.hash)
+    folder = None if store is None else os.fsencode(store)
+    if folder is not None:
+        answer = _core.stored_pair(folder, source.hash, target.hash)
         if answer is not None:
             return answer
-    return _core.register_pair(_scan_at(source), _scan_at(target), store)
+    return _core.register_pair(_scan_at(source), _scan_at(target), folder)
 
 
 _Answer = typing.TypeVar("_Answer")
@@ -209,7 +210,7 @@ def assemble(
     *,
     executor: typing.Optional[concurrent.futures.Executor] = None,
     viewpoint: typing.Optional[_Three] = None,
-    store: typing.Optional[typing.Union[str, os.PathLike[str]]] = None,
+    store: typing.Optional[_Path] = None,
     time_budget: typing.Optional[float] = None,
     parallel: bool = True,
     progress: typing.Optional[_Progress] = None,
@@ -265,7 +266,12 @@ def assemble(
         return _answers([executor.submit(_register, places[i], places[j], folder) for i, j in pairs], go_on)
 
     return _core.assemble_scans(
-        prepared, None if executor is None else register_pairs, folder, time_budget, parallel, progress
+        prepared,
+        None if executor is None else register_pairs,
+        None if folder is None else os.fsencode(folder),
+        time_budget,
+        parallel,
+        progress,
     )
 
 

@@ -4,6 +4,7 @@
 import concurrent.futures
 import multiprocessing
 import os
+import pathlib
 import pickle
 import shutil
 import signal
@@ -97,7 +98,7 @@ def test_a_store_keeps_what_was_registered(alone, files, tmp_path):
     assert bits(cr.assemble(files, store=tmp_path / "pairs")) == bits(alone)
     kept = {p: p.stat().st_mtime_ns for p in (tmp_path / "pairs").iterdir()}
     assert len(kept) == len(alone.edges)
-    assert bits(cr.assemble(files, store=tmp_path / "pairs")) == bits(alone)
+    assert bits(cr.assemble(files, store=os.fsencode(tmp_path / "pairs"))) == bits(alone)
     assert {p: p.stat().st_mtime_ns for p in (tmp_path / "pairs").iterdir()} == kept
 
 
@@ -174,9 +175,10 @@ def test_a_store_is_shared_by_all_runs(alone, files, tmp_path, counts):
         assert counts["Scan"] == first["Scan"] + len(files) - 4
         assert counts["register_pair"] == len(list(store.glob("*.pair"))) >= len(alone.edges)
         second = dict(counts)
-        # Files are known by what is in them.
-        moved = tmp_path / "moved"
+        # Files are known by what is in them. Names need not be UTF-8.
+        moved = pathlib.Path(os.fsdecode(os.fsencode(tmp_path) + b"/moved\xff"))
         moved.mkdir()
+        store = store.rename(moved / "store")
         copies = [shutil.copy(f, moved) for f in files]
         assert bits(cr.assemble(copies, executor=executor, store=store)) == bits(alone)
         assert counts == second
