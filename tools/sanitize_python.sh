@@ -3,7 +3,7 @@
 #
 # Builds in build-python-address/. The interpreter itself is not instrumented: the runtime is loaded before it, and what
 # the interpreter leaves behind at its end is no finding. Arguments are those of pytest (`-k register`). Dask and MPI are
-# left out: their processes are not ours.
+# left out: their processes are not ours. A finding ends the run, and is printed.
 # CRUDE_REGISTRATION_CASES=2000 asks for more generated arrays, other ones each time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -23,4 +23,4 @@ python=$(sed -n 's/^CRUDE_REGISTRATION_PYTHON:.*=//p' "$build/CMakeCache.txt")
 cd "$build/python"
 PYTHONPATH=$PWD PYTHONDONTWRITEBYTECODE=1 PYTHONMALLOC=malloc UBSAN_OPTIONS=print_stacktrace=1 \
   ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 LD_PRELOAD=$runtime \
-  "$python" -m pytest -q -p no:cacheprovider "$root/python/tests" --ignore="$root/python/tests/test_clusters.py" "$@"
+  "$python" -m pytest -q --capture=sys -p no:cacheprovider "$root/python/tests" --ignore="$root/python/tests/test_clusters.py" "$@"

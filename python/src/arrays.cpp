@@ -13,6 +13,9 @@
 
 namespace {
 
+// Of an array whose elements follow each other and lie where the processor reads them, or a copy that is so.
+constexpr int plain = py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+
 std::string text_of(const py::handle& object)
 {
   return py::str(object).cast<std::string>();
@@ -69,7 +72,7 @@ py::array to_array(const py::handle& object, const std::string& argument, const 
 
 py::array_t<double> to_coordinates(const py::array& array, const std::string& argument)
 {
-  auto coordinates = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+  auto coordinates = py::array_t<double, plain>::ensure(array);
   if (!coordinates) {
     PyErr_Clear();
     throw py::type_error(argument + ": the array cannot be converted to float64");

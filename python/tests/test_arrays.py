@@ -57,6 +57,9 @@ def test_layouts_give_the_same_scan(mesh, expected):
     for kind in (np.int8, np.uint16, np.int64, np.uint64, ">i4"):
         if np.iinfo(kind).max >= mesh.faces.max():
             assert cr.Scan(mesh.points, mesh.faces.astype(kind)).to_bytes() == expected, kind
+    unaligned = np.zeros(mesh.faces.size * 8 + 1, np.uint8)[1:].view(np.int64).reshape(mesh.faces.shape)
+    unaligned[:] = mesh.faces
+    assert cr.Scan(mesh.points, unaligned).to_bytes() == expected
     assert cr.Scan(mesh).to_bytes() == expected
     assert cr.Scan(mesh.points, np.asfortranarray(mesh.faces)).to_bytes() == expected
     assert cr.Scan(mesh.points, mesh.faces.tolist()).to_bytes() == expected
