@@ -361,6 +361,27 @@ BOOST_AUTO_TEST_CASE(range_image_mesh_and_points_of_one_scan)
   BOOST_TEST(source.scan.extent() < 3);
 }
 
+BOOST_AUTO_TEST_CASE(the_sensor_of_a_file_is_taken)
+{
+  const View &source = view(0, 0), &target = view(0, 45);
+  CR::Scan_file<Kernel> points, mesh;
+  points.kind = CR::Scan_file<Kernel>::POINTS;
+  points.points = source.image.points();
+  mesh.kind = CR::Scan_file<Kernel>::MESH;
+  mesh.mesh = mesh_of(source.image);
+  for (CR::Scan_file<Kernel>* file : {&points, &mesh}) {
+    BOOST_TEST(!Scan(*file).has_free_space());
+    const Result given = CR::register_scans(Scan(*file, p::viewpoint(origin)), target.scan);
+    check_right(given, source, target);
+    file->sensor = CR::Sensor<Kernel>::perspective(origin);
+    BOOST_TEST(Scan(*file).has_free_space());
+    check_same_bits(CR::register_scans(Scan(*file), target.scan), given);
+    // What is said of it is wrong, and a parameter says so.
+    file->sensor = CR::Sensor<Kernel>::perspective(origin + 3 * (source.image.points()[0] - origin));
+    check_same_bits(CR::register_scans(Scan(*file, p::viewpoint(origin)), target.scan), given);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(any_face_graph_and_kernel)
 {
   const View &source = view(0, 0), &target = view(0, 45);

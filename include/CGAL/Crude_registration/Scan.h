@@ -196,9 +196,8 @@ public:
   template <class NamedParameters = parameters::Default_named_parameters>
   explicit Scan(const std::vector<Point_3>& points, const NamedParameters& np = parameters::default_values(),
                 const std::string& name = "Scan: points")
-  {
-    within_limits(np, name, [&](internal::Run_control& control) { prepare_points(points, {}, np, name, control); });
-  }
+      : Scan(points, std::vector<Vector_3>(), np, name)
+  {}
 
   /*!
   prepares points with normals, which tell the side from where the surface was seen, unless the sensor is given. The
@@ -219,11 +218,12 @@ public:
        const NamedParameters& np = parameters::default_values(), const std::string& name = "Scan: points")
   {
     within_limits(np, name,
-                  [&](internal::Run_control& control) { prepare_points(points, normals, np, name, control); });
+                  [&](internal::Run_control& control) { prepare_points(points, normals, {}, np, name, control); });
   }
 
   /*!
-  prepares what `read_scan()` found in a file: a range image, a mesh or points, as above.
+  prepares what `read_scan()` found in a file: a range image, a mesh or points, as above. Where no named parameter gives
+  the sensor, it is the one that the file names, `Scan_file::sensor` or that of the range image.
 
   \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 
@@ -244,10 +244,10 @@ public:
         break;
       case Scan_file<Kernel>::MESH:
         prepare(internal::faces_of_scan(file.mesh, parameters::default_values(), name, control),
-                internal::sensor_parameter(np, name), nullptr, np, generator_of(np), name, control);
+                internal::sensor_parameter(np, name, file.sensor), nullptr, np, generator_of(np), name, control);
         break;
       case Scan_file<Kernel>::POINTS:
-        prepare_points(file.points, file.normals, np, name, control);
+        prepare_points(file.points, file.normals, file.sensor, np, name, control);
       }
     });
   }
@@ -341,13 +341,14 @@ private:
 
   template <class NamedParameters>
   void prepare_points(const std::vector<Point_3>& points, const std::vector<Vector_3>& normals,
-                      const NamedParameters& np, const std::string& name, internal::Run_control& control)
+                      const Sensor<Kernel>& of_file, const NamedParameters& np, const std::string& name,
+                      internal::Run_control& control)
   {
     const std::vector<internal::Vector> flat =
         internal::to_flat_points(points, CGAL::Identity_property_map<Point_3>(), name, "it", control);
     const std::vector<internal::Vector> flat_normals =
         internal::to_flat_normals(normals, points.size(), name, "it", control);
-    const internal::Flat_sensor sensor = internal::sensor_parameter(np, name);
+    const internal::Flat_sensor sensor = internal::sensor_parameter(np, name, of_file);
     const auto start = std::chrono::steady_clock::now();
     control.check();
     internal::check_scan_size(flat, name);

@@ -21,6 +21,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -143,6 +144,14 @@ Flat_sensor to_flat_sensor(const Sensor<Kernel>& sensor)
   if (sensor.is_orthographic()) s = {Flat_sensor::ORTHOGRAPHIC, to_vector(sensor.viewing_direction())};
   if (sensor.is_perspective()) s = {Flat_sensor::PERSPECTIVE, to_vector(sensor.viewpoint())};
   return s;
+}
+
+// The sensor that the parameters give, or else the other one.
+template <class NamedParameters, class Kernel>
+Flat_sensor sensor_parameter(const NamedParameters& np, const std::string& function, const Sensor<Kernel>& other)
+{
+  const Flat_sensor given = sensor_parameter(np, function);
+  return given.kind == Flat_sensor::UNKNOWN ? to_flat_sensor(other) : given;
 }
 
 template <class Kernel>
