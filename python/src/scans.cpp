@@ -263,7 +263,7 @@ void bind_scans(py::module_& module)
       "normals", [](const Scan& s) { return to_array(s.normals()); },
       "(n, 3): the unit normals at points, outwards or towards the sensor.");
   scan.def_property_readonly("has_free_space", &Scan::has_free_space,
-                             "Whether free space is known, from the sensor or along the mean normal.");
+                             "Whether free space is known, as it is where the sensor is.");
   scan.def("__repr__", [](const Scan& s) { return text_of(s); });
   scan.def("to_bytes", &bytes_of,
            "to_bytes(self)\n--\n\nThe scan as some megabytes, from which from_bytes() makes the same scan, bit by bit, "

@@ -10,6 +10,7 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/boost/graph/generators.h>
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
 #endif
@@ -359,6 +360,21 @@ BOOST_AUTO_TEST_CASE(range_image_mesh_and_points_of_one_scan)
   BOOST_TEST(source.scan.has_free_space());
   BOOST_TEST(source.scan.extent() > 0.5);
   BOOST_TEST(source.scan.extent() < 3);
+}
+
+// Though all of it faces one way, nothing tells that it was seen from there.
+BOOST_AUTO_TEST_CASE(without_a_sensor_no_space_is_free)
+{
+  Mesh hills;
+  CGAL::make_grid(
+      40, 40, hills,
+      [](std::size_t i, std::size_t j) {
+        const double x = double(i) / 10, y = double(j) / 10;
+        return Point(x, y, 0.3 * std::sin(2 * x) * std::cos(3 * y) + 0.1 * x * y);
+      },
+      true);
+  BOOST_TEST(!Scan(hills).has_free_space());
+  BOOST_TEST(Scan(hills, p::viewing_direction(Kernel::Vector_3(0, 0, -1))).has_free_space());
 }
 
 BOOST_AUTO_TEST_CASE(the_sensor_of_a_file_is_taken)

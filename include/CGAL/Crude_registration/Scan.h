@@ -75,9 +75,8 @@ All constructors read these named parameters:
   \cgalParamNBegin{viewpoint}
     \cgalParamDescription{where the sensor stood, in the frame of the input}
     \cgalParamType{a `Point_3`}
-    \cgalParamDefault{of a range image its own sensor, or what `estimate_sensor()` finds; else not known: free space is
-                      then taken along the mean normal where nearly the whole surface faces that way, and nowhere
-                      otherwise}
+    \cgalParamDefault{of a range image its own sensor, or what `estimate_sensor()` finds; else not known, and with it
+                      what is free space}
     \cgalParamExtra{excludes `viewing_direction`}
   \cgalParamNEnd
   \cgalParamNBegin{viewing_direction}
@@ -285,7 +284,7 @@ public:
     return normals;
   }
 
-  /// whether free space is known, from the sensor or along the mean normal.
+  /// whether free space is known, as it is where the sensor is.
   bool has_free_space() const { return m_reduced.depths.is_known(); }
 
   /// \cond SKIP_IN_MANUAL

@@ -60,8 +60,7 @@ parameter `candidates`), *judge* them by what agrees and by the free space of bo
   \cgalParamNBegin{viewpoint}
     \cgalParamDescription{where the sensor stood, in the frame of the mesh; read from both}
     \cgalParamType{a `Point_3`}
-    \cgalParamDefault{not known: free space is then taken along the mean normal where nearly the whole surface faces
-                      that way, and nowhere otherwise}
+    \cgalParamDefault{not known, and with it what is free space}
     \cgalParamExtra{excludes `viewing_direction`}
   \cgalParamNEnd
   \cgalParamNBegin{viewing_direction}

@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -33,34 +32,6 @@
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
-
-// The direction in which a surface without a known sensor may have been seen: against the mean normal, if nearly all of
-// it faces that way; null otherwise (closed meshes, several views).
-inline Vector_f likely_viewing_direction(const Oriented_samples& samples)
-{
-  Vector_f mean = Vector_f::Zero();
-  for (const Vector_f& n : samples.normals) mean += n;
-  const float length = mean.norm();
-  if (!(length > 0.5f * float(samples.normals.size()))) return Vector_f::Zero();
-  mean /= length;
-  std::size_t facing = 0;
-  for (const Vector_f& n : samples.normals) facing += n.dot(mean) > 0;
-  return double(facing) >= 0.97 * double(samples.normals.size()) ? Vector_f(-mean) : Vector_f(Vector_f::Zero());
-}
-
-// The share of the points that are further than `depth` behind what was seen in front of them. A scan's own points were
-// all seen.
-inline double hidden_share(const Depth_buffer& depths, const std::vector<Vector_f>& points, float depth)
-{
-  std::size_t known = 0, hidden = 0;
-  for (const Vector_f& p : points) {
-    const float d = depths.in_front(p);
-    if (!(d > -0.5f * (std::numeric_limits<float>::max)())) continue;
-    ++known;
-    hidden += d < -depth;
-  }
-  return known == 0 ? 0 : double(hidden) / double(known);
-}
 
 // The mean direction in which a sensor looks at points; null if it is not known.
 inline Vector mean_direction(const Flat_sensor& sensor, const std::vector<Vector>& points)
@@ -124,15 +95,10 @@ inline void reduce_samples(const Oriented_samples& samples, double area, const F
 
   const float cell = float(2.2 * scan.spacing);
   const Matrix_f rotation = own.rotation.cast<float>();
+  // The mean normal of a surface is not where it was seen from: free space along it would speak against right poses.
   if (sensor.kind != Flat_sensor::UNKNOWN) {
     scan.depths = Depth_buffer(sensor.kind, own(sensor.vector).cast<float>(), rotation * direction.cast<float>(),
                                samples.points, cell, control);
-  } else {
-    const Vector_f likely = likely_viewing_direction(samples);
-    if (!likely.isZero()) {
-      Depth_buffer depths(Flat_sensor::ORTHOGRAPHIC, Vector_f::Zero(), likely, samples.points, cell, control);
-      if (hidden_share(depths, samples.points, float(0.1 * scan.extent)) < 0.02) scan.depths = std::move(depths);
-    }
   }
 }
 
