@@ -7,6 +7,7 @@
 
 // assemble: puts many scans together.
 
+#include "apply.h"
 #include "assembly_files.h"
 #include "commands.h"
 #include "files.h"
@@ -149,6 +150,10 @@ int run_assemble(const std::vector<std::string>& arguments)
   add("output", po::value<std::string>(),
       "file (PLY) for the points of the largest component in one frame, each with the number of its scan and its "
       "distance from the other ones, -1 where they are not near");
+  add("apply", po::value<std::string>(),
+      "folder, made if missing, for the files of the largest component as they are but moved to its frame: in their "
+      "own "
+      "formats, with all that is in them (colours, intensities, texture, faces, comments), normals turned");
   add("table", po::value<std::string>(), "file for the overlaps and the residuals of all pairs, as text");
   add("picture", po::value<std::string>(), "file (PNG) for a picture of the largest component, a colour a scan");
   add("viewpoint", po::value<std::string>(),
@@ -178,6 +183,13 @@ int run_assemble(const std::vector<std::string>& arguments)
 
   const auto files = map["SCAN"].as<std::vector<std::string>>();
   const std::vector<std::string> names = names_of(files);
+  const auto apply_folder = value_of<std::string>(map, "apply");
+  std::vector<std::string> applied;
+  if (apply_folder) {
+    applied = applied_names(*apply_folder, files);
+    make_folder(*apply_folder);
+    for (std::size_t i = 0; i < files.size(); ++i) check_apply(files[i], applied[i]);
+  }
   const auto start = Clock::now();
   const std::vector<Scan> scans = prepared(map, files, viewpoint);
   const double preparation = seconds_since(start);
@@ -193,6 +205,12 @@ int run_assemble(const std::vector<std::string>& arguments)
   if (const auto file = value_of<std::string>(map, "table"))
     CR::write_file(*file, [&](std::ostream& out) { write_tables(out, result, names); });
   if (const auto file = value_of<std::string>(map, "output")) write_points(*file, map, result, scans, files);
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < applied.size(); ++i) {
+    if (result.component(i) != 0) continue;
+    const std::string note = apply(files[i], applied[i], result.pose(i), scans[i].spacing());
+    if (!note.empty()) notes.push_back(note);
+  }
   if (picture) {
     std::vector<Surface> surfaces;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -205,7 +223,10 @@ int run_assemble(const std::vector<std::string>& arguments)
   }
   const bool with_times = map.count("times") > 0;
   if (map.count("json") > 0) std::cout << to_text(to_json(result, files, with_times)) << '\n';
-  else print_text(result, names);
+  else {
+    print_text(result, names);
+    for (const std::string& note : notes) std::cout << "note: " << note << '\n';
+  }
   if (with_times && map.count("json") == 0) {
     std::cout << "seconds: " << preparation << " to read and prepare, " << seconds_since(start) << " in all\n";
     for (const auto& stage : result.statistics())

@@ -7,6 +7,7 @@
 
 // crude_register judge: says of a motion that somebody found whether it brings two scans together.
 
+#include "apply.h"
 #include "commands.h"
 #include "files.h"
 #include "json.h"
@@ -91,6 +92,8 @@ int run_judge(const std::vector<std::string>& arguments)
   auto add = options.add_options();
   add("motion", po::value<std::string>()->required(),
       "file of the motion that maps SOURCE onto TARGET: the rows of a 3 x 4 or 4 x 4 matrix, or the JSON of register");
+  add("apply", po::value<std::string>(),
+      (apply_help + std::string("; by what refinement makes of the motion, written unless it is wrong")).c_str());
   add_options_of_sides(options);
   add("json", "print JSON, the same bytes for the same scans");
   const auto given = parse("judge SOURCE TARGET --motion FILE [OPTION...]",
@@ -103,6 +106,7 @@ int run_judge(const std::vector<std::string>& arguments)
   const std::string source = map["SOURCE"].as<std::string>(), target = map["TARGET"].as<std::string>(),
                     file = map["motion"].as<std::string>();
   const Transformation motion = read_motion(file);
+  const auto applied = apply_option(map, source);
   const Scan source_scan = scan_of(sides[0]), target_scan = scan_of(sides[1]);
   const auto judged = [&] {
     try {
@@ -115,10 +119,17 @@ int run_judge(const std::vector<std::string>& arguments)
   const auto& refined = judgement.refined();
   std::ostringstream status;
   status << judgement.status();
+  std::string note;
+  if (applied && judgement.status() != CR::WRONG_MOTION)
+    note = apply(source, *applied, refined.transformation() * Transformation(CGAL::SCALING, sides[0].unit),
+                 source_scan.spacing());
   if (map.count("json") > 0) {
     Json json = {{"source", source}, {"target", target}, {"motion", file}, {"verdict", status.str()}};
     json["displacement"] = judgement.displacement();
     add_result(json["refined"], refined, false);
+    json["notes"] = note.empty() ? Json::array() : Json::array({note});
+    json["written"] = Json::array();
+    if (applied && judgement.status() != CR::WRONG_MOTION) json["written"].push_back(*applied);
     std::cout << to_text(json) << '\n';
     return exit_code_of(judgement.status());
   }
@@ -136,6 +147,8 @@ int run_judge(const std::vector<std::string>& arguments)
               << std::setprecision(12);
     write_rows(std::cout, refined.transformation(), "  ", "\n");
     std::cout << "  0 0 0 1\n";
+    if (!note.empty()) std::cout << "note:         " << note << '\n';
+    if (applied) std::cout << "written:      " << *applied << '\n';
   }
   return exit_code_of(judgement.status());
 }

@@ -7,6 +7,7 @@
 
 // register: finds the motion that maps one scan onto another.
 
+#include "apply.h"
 #include "commands.h"
 #include "files.h"
 #include "json.h"
@@ -258,6 +259,7 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("output", po::value<std::string>(),
       "folder for source_moved.ply, target.ply and motion.txt (the 4 x 4 matrix); "
       "made if missing, written unless the scans are not registered");
+  add("apply", po::value<std::string>(), apply_help);
   add("picture", po::value<std::string>(),
       "file (PNG) for a picture of both scans as they were registered, the source orange and the target blue; side by "
       "side if they are not");
@@ -294,6 +296,7 @@ int run_register(const std::vector<std::string>& arguments)
   std::array<Side, 2> sides;
   const std::array<Scan_of_a_side, 2> given_sides = sides_of(map);
   for (std::size_t i = 0; i < 2; ++i) static_cast<Scan_of_a_side&>(sides[i]) = given_sides[i];
+  const auto applied = apply_option(map, sides[0].file);
   const Answer answer = [&] {
     if (method == "pairs")
       return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget);
@@ -314,6 +317,14 @@ int run_register(const std::vector<std::string>& arguments)
     }
     if (output)
       written = write_output(*output, result.transformation(), source, mesh_of(sides[1].contents, sides[1].viewpoint));
+  }
+
+  if (applied && result.status() != CR::NOT_REGISTERED) {
+    const Transformation in_unit(CGAL::SCALING, sides[0].unit);
+    const std::string note =
+        apply(sides[0].file, *applied, result.transformation() * in_unit, sides[0].scan->spacing());
+    if (!note.empty()) sides[0].contents.notes.push_back(note);
+    written.push_back(*applied);
   }
 
   if (picture) {
