@@ -13,8 +13,9 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
-#include "run_limits.h"
 #include "picture.h"
+#include "progress.h"
+#include "run_limits.h"
 #include "surfaces.h"
 
 #include <CGAL/Crude_registration/Scan.h>
@@ -23,6 +24,7 @@
 #include <CGAL/for_each.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <exception>
@@ -32,6 +34,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,15 +53,21 @@ struct Input
 
 // Reads and prepares the scans; of several failures the first is reported.
 std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::string>& files,
-                           const std::optional<Point>& viewpoint)
+                           const std::optional<Point>& viewpoint, Progress& progress)
 {
+  progress.begin_stage("reading and preparing " + std::to_string(files.size()) + " scans");
+  std::atomic<std::size_t> done{0};
   std::vector<Input> inputs;
   for (const std::string& file : files) inputs.push_back({file, {}, {}});
   CGAL::for_each<CGAL::Parallel_if_available_tag>(inputs, [&](Input& input) {
     try {
+      if (is_interrupted()) return true;
       const Scan_file contents = read_scan(map, input.file);
-      with_viewpoint(viewpoint_of(contents, viewpoint),
-                     [&](const auto& np) { input.scan.emplace(contents, np, input.file); });
+      with_viewpoint(viewpoint_of(contents, viewpoint), [&](const auto& np) {
+        input.scan.emplace(contents, np.visitor(Interruption_visitor()), input.file);
+      });
+      progress.set_share(double(++done) / double(inputs.size()));
+    } catch (const CR::Preparation_interrupted&) {
     } catch (...) {
       input.failure = std::current_exception();
     }
@@ -67,6 +76,7 @@ std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::
   std::vector<Scan> scans;
   for (Input& input : inputs) {
     if (input.failure) std::rethrow_exception(input.failure);
+    if (!input.scan) throw std::runtime_error("interrupted while the scans were prepared: nothing is assembled");
     scans.push_back(std::move(*input.scan));
   }
   return scans;
@@ -190,15 +200,20 @@ int run_assemble(const std::vector<std::string>& arguments)
     make_folder(*apply_folder);
     for (std::size_t i = 0; i < files.size(); ++i) check_apply(files[i], applied[i]);
   }
+  watch_for_interruption();
+  Progress progress;
   const auto start = Clock::now();
-  const std::vector<Scan> scans = prepared(map, files, viewpoint);
+  const std::vector<Scan> scans = prepared(map, files, viewpoint, progress);
   const double preparation = seconds_since(start);
   constexpr double shortest = 1e-9;
-  const auto np = CR::parameters::time_budget((std::max)(shortest, time_budget - preparation));
+  progress.begin_stage("assembling");
+  const auto np =
+      CR::parameters::time_budget((std::max)(shortest, time_budget - preparation)).visitor(Terminal_visitor(progress));
   const auto store = value_of<std::string>(map, "store");
   const Result result = store ? CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np.store(*store))
                               : CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np);
 
+  progress.begin_stage("writing");
   if (const auto file = value_of<std::string>(map, "poses")) write_poses(*file, result, names);
   if (const auto file = value_of<std::string>(map, "graph"))
     CR::write_file(*file, [&](std::ostream& out) { write_graph(out, result, names); });
@@ -221,6 +236,7 @@ int run_assemble(const std::vector<std::string>& arguments)
     }
     write_picture(*picture, std::move(surfaces), true);
   }
+  progress.clear();
   const bool with_times = map.count("times") > 0;
   if (map.count("json") > 0) std::cout << to_text(to_json(result, files, with_times)) << '\n';
   else {

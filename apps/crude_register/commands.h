@@ -18,7 +18,8 @@ enum Exit_code
   EXIT_REGISTERED = 0,
   EXIT_ERROR = 1,
   EXIT_AMBIGUOUS = 2,
-  EXIT_NOT_REGISTERED = 3
+  EXIT_NOT_REGISTERED = 3,
+  EXIT_INTERRUPTED = 130 // as of shells: 128 and the number of SIGINT
 };
 
 int run_register(const std::vector<std::string>& arguments);

@@ -12,6 +12,7 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "progress.h"
 #include "sides.h"
 
 #include <CGAL/Crude_registration/judge_motion.h>
@@ -65,10 +66,12 @@ Transformation read_motion(const std::string& file)
   return Transformation(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11]);
 }
 
-Scan scan_of(Scan_of_a_side& side)
+Scan scan_of(Scan_of_a_side& side, Progress& progress)
 {
   side.read();
-  return with_viewpoint(side.viewpoint, [&](const auto& np) { return Scan(side.contents, np, side.file); });
+  return with_viewpoint(side.viewpoint, [&](const auto& np) {
+    return Scan(side.contents, np.visitor(Terminal_visitor(progress)), side.file);
+  });
 }
 
 int exit_code_of(CR::Motion_status status)
@@ -107,15 +110,22 @@ int run_judge(const std::vector<std::string>& arguments)
                     file = map["motion"].as<std::string>();
   const Transformation motion = read_motion(file);
   const auto applied = apply_option(map, source);
-  const Scan source_scan = scan_of(sides[0]), target_scan = scan_of(sides[1]);
+  watch_for_interruption();
+  Progress progress;
+  progress.begin_stage("reading and preparing the scans");
+  const Scan source_scan = scan_of(sides[0], progress), target_scan = scan_of(sides[1], progress);
+  progress.begin_stage("judging");
   const auto judged = [&] {
     try {
-      return CR::judge_motion<CGAL::Parallel_if_available_tag>(source_scan, target_scan, motion);
+      return CR::judge_motion<CGAL::Parallel_if_available_tag>(source_scan, target_scan, motion,
+                                                               CR::parameters::visitor(Terminal_visitor(progress)));
     } catch (const std::invalid_argument& e) {
       throw CR::IO_error(file, e.what());
     }
   };
   const CR::Motion_judgement<Kernel> judgement = judged();
+  progress.clear();
+  if (is_interrupted()) throw std::runtime_error("interrupted before the motion was judged");
   const auto& refined = judgement.refined();
   std::ostringstream status;
   status << judgement.status();

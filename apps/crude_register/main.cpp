@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "options.h"
+#include "progress.h"
 
 #include <exception>
 #include <iostream>
@@ -56,7 +57,7 @@ int main(int argc, char** argv)
     const int code = run(std::vector<std::string>(argv + 1, argv + argc));
     std::cout.flush();
     if (!std::cout) throw std::runtime_error("the output cannot be written");
-    return code;
+    return is_interrupted() ? int(EXIT_INTERRUPTED) : code;
   } catch (const Usage_error& e) {
     std::cerr << "crude_register: " << e.what() << "; see crude_register --help\n";
   } catch (const std::bad_alloc&) {
@@ -64,5 +65,5 @@ int main(int argc, char** argv)
   } catch (const std::exception& e) {
     std::cerr << "crude_register: " << e.what() << '\n';
   }
-  return EXIT_ERROR;
+  return is_interrupted() ? EXIT_INTERRUPTED : EXIT_ERROR;
 }

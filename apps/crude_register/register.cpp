@@ -12,8 +12,9 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
-#include "run_limits.h"
 #include "picture.h"
+#include "progress.h"
+#include "run_limits.h"
 #include "sides.h"
 #include "surfaces.h"
 
@@ -82,17 +83,19 @@ Generator generator_with(const std::optional<double>& f1, const std::optional<do
 
 // Reads, prepares and registers the two scans.
 template <class Generator>
-Answer register_files(std::array<Side, 2>& sides, const Generator& generator, double time_budget)
+Answer register_files(std::array<Side, 2>& sides, const Generator& generator, double time_budget, Progress& progress)
 {
   const auto left = [&, begin = Clock::now()] { // of the time budget
     constexpr double shortest = 1e-9;
     return (std::max)(shortest, time_budget - seconds_since(begin));
   };
+  const Terminal_visitor visitor(progress);
+  progress.begin_stage("reading and preparing the scans");
   CGAL::for_each<CGAL::Parallel_if_available_tag>(sides, [&](Side& side) {
     try {
       side.read();
       const auto start = Clock::now();
-      const auto np = CR::parameters::time_budget(left()).candidates(generator);
+      const auto np = CR::parameters::time_budget(left()).candidates(generator).visitor(visitor);
       side.scan = side.viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*side.viewpoint), side.file)
                                  : std::make_unique<const Scan>(side.contents, np, side.file);
       side.seconds = seconds_since(start);
@@ -110,8 +113,9 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, do
   answer.preparation_seconds = sides[0].seconds + sides[1].seconds;
   const auto start = Clock::now();
   if (sides[0].scan && sides[1].scan) {
+    progress.begin_stage("registering");
     answer.result = CR::register_scans<CGAL::Parallel_if_available_tag>(
-        *sides[0].scan, *sides[1].scan, CR::parameters::time_budget(left()).candidates(generator));
+        *sides[0].scan, *sides[1].scan, CR::parameters::time_budget(left()).candidates(generator).visitor(visitor));
   } else {
     Result::Parts parts;
     parts.reason = sides[0].scan ? sides[1].interruption : sides[0].interruption;
@@ -297,15 +301,18 @@ int run_register(const std::vector<std::string>& arguments)
   const std::array<Scan_of_a_side, 2> given_sides = sides_of(map);
   for (std::size_t i = 0; i < 2; ++i) static_cast<Scan_of_a_side&>(sides[i]) = given_sides[i];
   const auto applied = apply_option(map, sides[0].file);
+  watch_for_interruption();
+  Progress progress;
   const Answer answer = [&] {
     if (method == "pairs")
-      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget);
+      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget, progress);
     if (method == "trihedra")
-      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), time_budget);
+      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), time_budget, progress);
     throw Usage_error("--method takes pairs or trihedra, not '" + method + "'");
   }();
   const Result& result = answer.result;
 
+  progress.begin_stage("writing");
   std::optional<Error> error;
   std::vector<std::string> written;
   if (result.status() != CR::NOT_REGISTERED && (output || poses_file)) {
@@ -335,6 +342,7 @@ int run_register(const std::vector<std::string>& arguments)
     written.push_back(*picture);
   }
 
+  progress.clear();
   const std::string hint = result.status() == CR::REGISTERED ? "" : hint_of(sides);
   if (map.count("json") > 0) print_json(sides, answer, error, written, hint, map.count("times") > 0);
   else print_text(sides, answer, error, written, hint);
