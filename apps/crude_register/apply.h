@@ -26,18 +26,6 @@
 #include <system_error>
 #include <vector>
 
-// The end of a file's name, which says its format: in small letters, without that of gzip and the number of a scan.
-inline std::string format_by_name(const std::string& file)
-{
-  std::filesystem::path path(file);
-  std::string extension = path.extension().string();
-  if (extension == ".gz") extension = path.stem().extension().string();
-  extension = extension.substr(0, extension.find('#'));
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return extension;
-}
-
 // Told before the work: where a scan cannot be written moved, to a file of this name.
 inline void check_apply(const std::string& scan, const std::string& output)
 {

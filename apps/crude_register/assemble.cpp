@@ -16,6 +16,7 @@
 #include "picture.h"
 #include "progress.h"
 #include "run_limits.h"
+#include "scan_arguments.h"
 #include "surfaces.h"
 
 #include <CGAL/Crude_registration/Scan.h>
@@ -90,9 +91,10 @@ std::string text_of(const Value& value)
   return text.str();
 }
 
-Json to_json(const Result& result, const std::vector<std::string>& files, bool with_times)
+Json to_json(const Result& result, const std::vector<std::string>& files, const std::vector<std::string>& notes,
+             bool with_times)
 {
-  Json json;
+  Json json = answer_of("assemble");
   json["components"] = result.number_of_components();
   json["interrupted"] = result.is_interrupted();
   Json& scans = json["scans"] = Json::array();
@@ -123,6 +125,7 @@ Json to_json(const Result& result, const std::vector<std::string>& files, bool w
     Json& entry = statistics.emplace_back(Json{{"stage", stage.name}, {"count", stage.count}});
     if (with_times) entry["seconds"] = stage.seconds;
   }
+  json["notes"] = notes;
   return json;
 }
 
@@ -175,11 +178,17 @@ int run_assemble(const std::vector<std::string>& arguments)
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
   add("times", "add the times to the JSON, or to the text");
-  const auto given = parse("assemble SCAN... [OPTION...]",
-                           "Puts scans together, in any order: finds a pose for each. What cannot be connected with "
-                           "certainty stays apart,\nas a component of its own.\n"
-                           "Exit code: 0 some scans are connected, 3 none are, 1 error.\n",
-                           options, {}, arguments, "SCAN");
+  const Command command = {
+      "assemble",
+      "SCAN...",
+      "Puts scans together, in any order: finds a pose for each. What cannot be connected with certainty stays apart,\n"
+      "as a component of its own. A folder stands for all scans in it.\n"
+      "Exit code: 0 some scans are connected, 3 none are, 1 error, 130 ended by Ctrl-C.\n",
+      {{"scans/ --poses poses.txt", "a pose for each scan in a folder"},
+       {"'scan_*.ply' --output model.ply --picture model.png", "all points in one frame, and a picture of them"},
+       {"scans/ --apply moved", "each scan moved, with all that is in its file"}},
+      {}};
+  const auto given = parse(command, options, {}, arguments, "SCAN");
   if (!given) return 0;
   const po::variables_map& map = *given;
   const std::optional<Point> viewpoint = point_of(map, "viewpoint");
@@ -191,7 +200,7 @@ int run_assemble(const std::vector<std::string>& arguments)
   const auto picture = value_of<std::string>(map, "picture");
   check_picture(picture);
 
-  const auto files = map["SCAN"].as<std::vector<std::string>>();
+  const auto files = scans_of_arguments(map["SCAN"].as<std::vector<std::string>>());
   const std::vector<std::string> names = names_of(files);
   const auto apply_folder = value_of<std::string>(map, "apply");
   std::vector<std::string> applied;
@@ -238,7 +247,7 @@ int run_assemble(const std::vector<std::string>& arguments)
   }
   progress.clear();
   const bool with_times = map.count("times") > 0;
-  if (map.count("json") > 0) std::cout << to_text(to_json(result, files, with_times)) << '\n';
+  if (map.count("json") > 0) std::cout << to_text(to_json(result, files, notes, with_times)) << '\n';
   else {
     print_text(result, names);
     for (const std::string& note : notes) std::cout << "note: " << note << '\n';

@@ -26,6 +26,7 @@ int run_register(const std::vector<std::string>& arguments);
 int run_judge(const std::vector<std::string>& arguments);
 int run_assemble(const std::vector<std::string>& arguments);
 int run_info(const std::vector<std::string>& arguments);
+int run_convert(const std::vector<std::string>& arguments);
 int run_simulate(const std::vector<std::string>& arguments);
 
 #endif // CRUDE_REGISTER_COMMANDS_H

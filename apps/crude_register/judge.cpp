@@ -99,15 +99,19 @@ int run_judge(const std::vector<std::string>& arguments)
       (apply_help + std::string("; by what refinement makes of the motion, written unless it is wrong")).c_str());
   add_options_of_sides(options);
   add("json", "print JSON, the same bytes for the same scans");
-  const auto given = parse("judge SOURCE TARGET --motion FILE [OPTION...]",
-                           "Says of a motion that somebody found whether it maps SOURCE onto TARGET.\n"
-                           "Exit code: 0 right, 2 refinable, 3 wrong, 1 error.\n",
-                           options, {"SOURCE", "TARGET"}, arguments);
+  const Command command = {
+      "judge",
+      "SOURCE TARGET --motion FILE",
+      "Says of a motion that somebody found whether it maps SOURCE onto TARGET.\n"
+      "Exit code: 0 right, 2 refinable, 3 wrong, 1 error, 130 ended by Ctrl-C.\n",
+      {{"source.ply target.ply --motion motion.txt", "says whether a matrix of another program is right"},
+       {"source.ply target.ply --motion answer.json", "the same of what register --json has printed"}},
+      {{"source-unit", "mm cm m in ft"}, {"target-unit", "mm cm m in ft"}}};
+  const auto given = parse(command, options, {"SOURCE", "TARGET"}, arguments);
   if (!given) return 0;
   const po::variables_map& map = *given;
   std::array<Scan_of_a_side, 2> sides = sides_of(map);
-  const std::string source = map["SOURCE"].as<std::string>(), target = map["TARGET"].as<std::string>(),
-                    file = map["motion"].as<std::string>();
+  const std::string source = sides[0].file, target = sides[1].file, file = map["motion"].as<std::string>();
   const Transformation motion = read_motion(file);
   const auto applied = apply_option(map, source);
   watch_for_interruption();
@@ -134,7 +138,11 @@ int run_judge(const std::vector<std::string>& arguments)
     note = apply(source, *applied, refined.transformation() * Transformation(CGAL::SCALING, sides[0].unit),
                  source_scan.spacing());
   if (map.count("json") > 0) {
-    Json json = {{"source", source}, {"target", target}, {"motion", file}, {"verdict", status.str()}};
+    Json json = answer_of("judge");
+    json["source"] = source;
+    json["target"] = target;
+    json["motion"] = file;
+    json["verdict"] = status.str();
     json["displacement"] = judgement.displacement();
     add_result(json["refined"], refined, false);
     json["notes"] = note.empty() ? Json::array() : Json::array({note});

@@ -208,7 +208,9 @@ std::vector<std::string> notes_of(const std::array<Side, 2>& sides)
 void print_json(const std::array<Side, 2>& sides, const Answer& answer, const std::optional<Error>& error,
                 const std::vector<std::string>& written, const std::string& hint, bool with_times)
 {
-  Json json = {{"source", sides[0].file}, {"target", sides[1].file}};
+  Json json = answer_of("register");
+  json["source"] = sides[0].file;
+  json["target"] = sides[1].file;
   add_result(json, answer.result, with_times);
   json["hint"] = hint;
   json["notes"] = notes_of(sides);
@@ -274,10 +276,16 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
   add("times", "add the times to the JSON");
-  return parse("register SOURCE TARGET [OPTION...]",
-               "Finds the rigid motion that maps SOURCE onto TARGET, and says whether it can be believed.\n"
-               "Exit code: 0 registered, 2 ambiguous, 3 not registered, 1 error.\n",
-               options, {"SOURCE", "TARGET"}, arguments);
+  const Command command = {
+      "register",
+      "SOURCE TARGET",
+      "Finds the rigid motion that maps SOURCE onto TARGET, and says whether it can be believed.\n"
+      "Exit code: 0 registered, 2 ambiguous, 3 not registered, 1 error, 130 ended by Ctrl-C.\n",
+      {{"source.ply target.ply", "prints the motion, and whether it can be believed"},
+       {"source.obj target.obj --apply moved.obj", "writes the file of the source moved, with all that is in it"},
+       {"a.xyz b.xyz --viewpoint 0,0,0 --json", "points that a sensor at the origin saw; the answer for programs"}},
+      {{"method", "pairs trihedra"}, {"source-unit", "mm cm m in ft"}, {"target-unit", "mm cm m in ft"}}};
+  return parse(command, options, {"SOURCE", "TARGET"}, arguments);
 }
 
 } // namespace

@@ -47,10 +47,14 @@ int run_simulate(const std::vector<std::string>& arguments)
   add("perspective", "lines of sight from one point, instead of parallel ones");
   add("resolution", po::value<int>()->default_value(96), "cells along the body");
   add("seed", po::value<unsigned>()->default_value(0), "which body, and which noise");
-  const auto given = parse("simulate --output DIR [OPTION...]",
-                           "Writes range scans of a generated body, each in the frame of its sensor, and their true "
-                           "poses.\n",
-                           options, {}, arguments);
+  const Command command = {
+      "simulate",
+      "--output DIR",
+      "Writes range scans of a generated body, each in the frame of its sensor, and their true poses.\n",
+      {{"--output scans", "two scans that overlap"},
+       {"--output scans --scans 8 --seed 3", "eight scans from all around another body"}},
+      {}};
+  const auto given = parse(command, options, {}, arguments);
   if (!given) return 0;
   const po::variables_map& map = *given;
   const std::string folder = map["output"].as<std::string>();

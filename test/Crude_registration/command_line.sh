@@ -54,10 +54,40 @@ holds()
 }
 
 # Help.
-for command in "" register assemble info simulate; do
+for command in "" register judge assemble info convert simulate; do
   expect 0 $command --help
   says usage:
+  head -n 1 out.txt | grep -q "^  crude_register [a-z]* " || fail "the help of '$command' does not begin with an example"
 done
+
+# What is made of the same texts: the man page and the completions.
+expect 0 --man
+for option in apply motion graph camera pedestal; do says "\\-\\-$option"; done
+if command -v groff > /dev/null; then
+  [ -z "$(groff -man -Tutf8 -ww -z out.txt 2>&1)" ] || fail "groff complains: $(groff -man -Tutf8 -ww -z out.txt 2>&1 | head -3)"
+fi
+expect 0 --bash-completion
+cp out.txt completion.bash
+completes() # EXPECTED WORD...
+{
+  local expected=$1 got
+  shift
+  got=$(bash -c '. ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _crude_register; echo "${COMPREPLY[*]}"' \
+    bash crude_register "$@")
+  [ "$got" = "$expected" ] || fail "bash completes '$*' to '$got', not to '$expected'"
+}
+completes "register" reg
+completes "--apply" register a.ply --ap
+completes "--time-budget --times" assemble --time
+completes "--times" register --times
+completes "pairs trihedra" register a.ply --method ""
+completes "mm m" judge --source-unit m
+completes "" info ""
+expect 0 --zsh-completion
+if command -v zsh > /dev/null; then
+  zsh -n out.txt 2> err.txt || fail "zsh does not read its completion: $(cat err.txt)"
+fi
+expect 0 --version
 
 # Wrong use.
 rejects "no command"
@@ -339,6 +369,44 @@ rejects "it is a folder" register absent.ply absent.ply --picture scans
 for option in picture poses output table graph; do
   rejects "there is no folder nowhere" assemble absent.ply absent.ply --$option nowhere/file
 done
+
+# Folders and patterns where scans are expected.
+expect 0 assemble many/*.ply --json
+grep -v '"file"' out.txt > by_name.json
+expect 0 assemble many --json
+grep -v '"file"' out.txt | cmp -s - by_name.json || fail "a folder does not stand for its scans"
+expect 0 assemble './many/*.ply' --json
+grep -v '"file"' out.txt | cmp -s - by_name.json || fail "a pattern does not stand for the files that it fits"
+mkdir -p empty
+rejects "there is no scan in the folder" assemble empty
+rejects "nothing_*.ply: " assemble scans/scan_0.ply 'nothing_*.ply'
+rejects "one scan is expected, but this stands for 2" register scans scans/scan_1.ply
+expect 0 info 'scans/*_0.ply'
+
+# Conversion: what is read back is the same.
+for format in ply off obj stl pcd npy xyz txt asc csv; do
+  expect 0 convert scans/scan_0.ply converted.$format
+  says "written: converted.$format"
+  expect 0 info converted.$format --viewpoint 0,0,9 --json
+  cp out.txt converted.json
+  case $format in
+    ply) expected='"range image"' ;;
+    off | obj | stl) expected='"mesh"' ;;
+    *) expected='"points"' ;;
+  esac
+  case $format in pcd | npy) expected='"range image"' ;; esac
+  holds /kind "$expected"
+done
+expect 0 convert converted.npy again.ply
+diff <(awk 'body && NF == 3' body=1 scans/scan_0.ply | grep -v '[a-z]') <(awk 'body && NF == 3' body=1 again.ply | grep -v '[a-z]') > /dev/null ||
+  fail "a range image that was converted twice has other samples"
+expect 0 convert converted.csv again.xyz
+cmp -s again.xyz converted.xyz || fail "points that were converted twice are others"
+expect 0 convert plane_0.xyz plane.off --viewpoint 20,15,100
+rejects "has to end in" convert scans/scan_0.ply converted.docx
+rejects "there is no folder nowhere" convert scans/scan_0.ply nowhere/converted.ply
+rejects "absent.ply" convert absent.ply converted.ply
+rejects "OUTPUT" convert scans/scan_0.ply
 
 # Information.
 expect 0 info scans/scan_0.ply
