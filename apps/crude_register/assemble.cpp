@@ -206,6 +206,7 @@ int run_assemble(const std::vector<std::string>& arguments)
   std::vector<std::string> applied;
   if (apply_folder) {
     applied = applied_names(*apply_folder, files);
+    for (const std::string& file : files) CR::check_motion_can_be_applied(file);
     make_folder(*apply_folder);
     for (std::size_t i = 0; i < files.size(); ++i) check_apply(files[i], applied[i]);
   }

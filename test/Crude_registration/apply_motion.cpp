@@ -74,7 +74,7 @@ std::string refusal_of(const std::string& name, const std::string& contents)
   }
   BOOST_CHECK_THROW(CR::apply_motion(file, out, quarter_turn), CR::IO_error);
   BOOST_TEST(!std::filesystem::exists(out));
-  BOOST_TEST(text.find(file + ": ") == 0, text);
+  BOOST_TEST(text.find(file + ":") == 0, text);
   BOOST_TEST(text.find('\n') == std::string::npos);
   return text;
 }
@@ -463,6 +463,13 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_moved_is_told)
   BOOST_TEST(refusal_of("a.png", "\x89PNG").find("depth image") != std::string::npos);
   BOOST_TEST(refusal_of("a.ts", "GOCAD TSurf 1").find("not written") != std::string::npos);
   BOOST_TEST(refusal_of("a.vtp", "<VTKFile>").find("not written") != std::string::npos);
+  // of a large file the beginning is looked at, or all of it
+  const std::string large = std::string(std::size_t(1) << 21, ' ');
+  BOOST_TEST(refusal_of("large.ply", ints + large).find("numbers x are whole ones") != std::string::npos);
+  BOOST_TEST(refusal_of("large.ply", "ply\ncomment" + large + ints.substr(3)).find("numbers x are whole ones") !=
+             std::string::npos);
+  BOOST_TEST(refusal_of("large.ply", "ply\ncomment" + large).find("ends before 'end_header'") != std::string::npos);
+  CR::check_motion_can_be_applied(folder().file("large.xyz", "1 2 3\n" + large + "4 5 6\n"));
   BOOST_TEST(refusal_of("empty.xyz", "").find("empty") != std::string::npos);
   BOOST_CHECK_THROW(CR::check_motion_can_be_applied("nowhere.xyz"), CR::IO_error);
   // motions that are none: a mirror, a shear, no number

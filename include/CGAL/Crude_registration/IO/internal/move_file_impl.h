@@ -30,6 +30,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
+#include <ios>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -301,11 +303,8 @@ inline void check_format(Scan_format format, const std::string& file)
     throw IO_error(file, std::string("the file cannot be written moved: ") + what + "; convert it to PLY first");
 }
 
-CGAL_CRUDE_REGISTRATION_INLINE void check_file_can_be_moved(const std::string& name)
+inline void check_contents(const Named_contents& contents, const std::string& file)
 {
-  std::string file = name;
-  take_off_number(file);
-  const Named_contents contents = contents_of(file);
   const Scan_format format = format_of(contents);
   check_format(format, file);
   if (format == Scan_format::PLY) {
@@ -318,6 +317,27 @@ CGAL_CRUDE_REGISTRATION_INLINE void check_file_can_be_moved(const std::string& n
     reader.read_head();
     check_head(reader, file);
   }
+}
+
+// Of a large file its beginning is enough, if that holds its head.
+CGAL_CRUDE_REGISTRATION_INLINE void check_file_can_be_moved(const std::string& name)
+{
+  std::string file = name;
+  take_off_number(file);
+  constexpr std::size_t enough = std::size_t(1) << 20;
+  Named_contents beginning;
+  beginning.data.resize(enough);
+  std::ifstream in(file, std::ios::binary);
+  in.read(beginning.data.data(), static_cast<std::streamsize>(enough));
+  if (in && beginning.data.compare(0, 2, "\x1f\x8b") != 0) {
+    beginning.extension = lower_case_extension(file);
+    try {
+      check_contents(beginning, file);
+      return;
+    } catch (const IO_error&) {
+    }
+  }
+  check_contents(contents_of(file), file);
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE Moved_file moved_file(const std::string& name, const Similarity& motion, bool packed)
