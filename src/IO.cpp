@@ -9,6 +9,7 @@
 //
 // Author(s)     : The Crude_registration authors
 
+#include <CGAL/Crude_registration/IO/internal/move_file_impl.h>
 #include <CGAL/Crude_registration/IO/internal/read_flat_scan_impl.h>
 #include <CGAL/Crude_registration/IO/internal/scan_bytes_impl.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>

@@ -7,13 +7,16 @@
 
 // assemble: puts many scans together.
 
+#include "apply.h"
 #include "assembly_files.h"
 #include "commands.h"
 #include "files.h"
 #include "json.h"
 #include "options.h"
-#include "run_limits.h"
 #include "picture.h"
+#include "progress.h"
+#include "run_limits.h"
+#include "scan_arguments.h"
 #include "surfaces.h"
 
 #include <CGAL/Crude_registration/Scan.h>
@@ -22,6 +25,7 @@
 #include <CGAL/for_each.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <exception>
@@ -31,6 +35,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,15 +54,21 @@ struct Input
 
 // Reads and prepares the scans; of several failures the first is reported.
 std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::string>& files,
-                           const std::optional<Point>& viewpoint)
+                           const std::optional<Point>& viewpoint, Progress& progress)
 {
+  progress.begin_stage("reading and preparing " + std::to_string(files.size()) + " scans");
+  std::atomic<std::size_t> done{0};
   std::vector<Input> inputs;
   for (const std::string& file : files) inputs.push_back({file, {}, {}});
   CGAL::for_each<CGAL::Parallel_if_available_tag>(inputs, [&](Input& input) {
     try {
+      if (is_interrupted()) return true;
       const Scan_file contents = read_scan(map, input.file);
-      with_viewpoint(viewpoint_of(contents, viewpoint),
-                     [&](const auto& np) { input.scan.emplace(contents, np, input.file); });
+      with_viewpoint(viewpoint_of(contents, viewpoint), [&](const auto& np) {
+        input.scan.emplace(contents, np.visitor(Interruption_visitor()), input.file);
+      });
+      progress.set_share(double(++done) / double(inputs.size()));
+    } catch (const CR::Preparation_interrupted&) {
     } catch (...) {
       input.failure = std::current_exception();
     }
@@ -66,6 +77,7 @@ std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::
   std::vector<Scan> scans;
   for (Input& input : inputs) {
     if (input.failure) std::rethrow_exception(input.failure);
+    if (!input.scan) throw std::runtime_error("interrupted while the scans were prepared: nothing is assembled");
     scans.push_back(std::move(*input.scan));
   }
   return scans;
@@ -79,9 +91,10 @@ std::string text_of(const Value& value)
   return text.str();
 }
 
-Json to_json(const Result& result, const std::vector<std::string>& files, bool with_times)
+Json to_json(const Result& result, const std::vector<std::string>& files, const std::vector<std::string>& notes,
+             bool with_times)
 {
-  Json json;
+  Json json = answer_of("assemble");
   json["components"] = result.number_of_components();
   json["interrupted"] = result.is_interrupted();
   Json& scans = json["scans"] = Json::array();
@@ -112,6 +125,7 @@ Json to_json(const Result& result, const std::vector<std::string>& files, bool w
     Json& entry = statistics.emplace_back(Json{{"stage", stage.name}, {"count", stage.count}});
     if (with_times) entry["seconds"] = stage.seconds;
   }
+  json["notes"] = notes;
   return json;
 }
 
@@ -149,6 +163,10 @@ int run_assemble(const std::vector<std::string>& arguments)
   add("output", po::value<std::string>(),
       "file (PLY) for the points of the largest component in one frame, each with the number of its scan and its "
       "distance from the other ones, -1 where they are not near");
+  add("apply", po::value<std::string>(),
+      "folder, made if missing, for the files of the largest component as they are but moved to its frame: in their "
+      "own "
+      "formats, with all that is in them (colours, intensities, texture, faces, comments), normals turned");
   add("table", po::value<std::string>(), "file for the overlaps and the residuals of all pairs, as text");
   add("picture", po::value<std::string>(), "file (PNG) for a picture of the largest component, a colour a scan");
   add("viewpoint", po::value<std::string>(),
@@ -160,11 +178,17 @@ int run_assemble(const std::vector<std::string>& arguments)
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
   add("times", "add the times to the JSON, or to the text");
-  const auto given = parse("assemble SCAN... [OPTION...]",
-                           "Puts scans together, in any order: finds a pose for each. What cannot be connected with "
-                           "certainty stays apart,\nas a component of its own.\n"
-                           "Exit code: 0 some scans are connected, 3 none are, 1 error.\n",
-                           options, {}, arguments, "SCAN");
+  const Command command = {
+      "assemble",
+      "SCAN...",
+      "Puts scans together, in any order: finds a pose for each. What cannot be connected with certainty stays apart,\n"
+      "as a component of its own. A folder stands for all scans in it.\n"
+      "Exit code: 0 some scans are connected, 3 none are, 1 error, 130 ended by Ctrl-C.\n",
+      {{"scans/ --poses poses.txt", "a pose for each scan in a folder"},
+       {"'scan_*.ply' --output model.ply --picture model.png", "all points in one frame, and a picture of them"},
+       {"scans/ --apply moved", "each scan moved, with all that is in its file"}},
+      {}};
+  const auto given = parse(command, options, {}, arguments, "SCAN");
   if (!given) return 0;
   const po::variables_map& map = *given;
   const std::optional<Point> viewpoint = point_of(map, "viewpoint");
@@ -176,23 +200,42 @@ int run_assemble(const std::vector<std::string>& arguments)
   const auto picture = value_of<std::string>(map, "picture");
   check_picture(picture);
 
-  const auto files = map["SCAN"].as<std::vector<std::string>>();
+  const auto files = scans_of_arguments(map["SCAN"].as<std::vector<std::string>>());
   const std::vector<std::string> names = names_of(files);
+  const auto apply_folder = value_of<std::string>(map, "apply");
+  std::vector<std::string> applied;
+  if (apply_folder) {
+    applied = applied_names(*apply_folder, files);
+    for (const std::string& file : files) CR::check_motion_can_be_applied(file);
+    make_folder(*apply_folder);
+    for (std::size_t i = 0; i < files.size(); ++i) check_apply(files[i], applied[i]);
+  }
+  watch_for_interruption();
+  Progress progress;
   const auto start = Clock::now();
-  const std::vector<Scan> scans = prepared(map, files, viewpoint);
+  const std::vector<Scan> scans = prepared(map, files, viewpoint, progress);
   const double preparation = seconds_since(start);
   constexpr double shortest = 1e-9;
-  const auto np = CR::parameters::time_budget((std::max)(shortest, time_budget - preparation));
+  progress.begin_stage("assembling");
+  const auto np =
+      CR::parameters::time_budget((std::max)(shortest, time_budget - preparation)).visitor(Terminal_visitor(progress));
   const auto store = value_of<std::string>(map, "store");
   const Result result = store ? CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np.store(*store))
                               : CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np);
 
+  progress.begin_stage("writing");
   if (const auto file = value_of<std::string>(map, "poses")) write_poses(*file, result, names);
   if (const auto file = value_of<std::string>(map, "graph"))
     CR::write_file(*file, [&](std::ostream& out) { write_graph(out, result, names); });
   if (const auto file = value_of<std::string>(map, "table"))
     CR::write_file(*file, [&](std::ostream& out) { write_tables(out, result, names); });
   if (const auto file = value_of<std::string>(map, "output")) write_points(*file, map, result, scans, files);
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < applied.size(); ++i) {
+    if (result.component(i) != 0) continue;
+    const std::string note = apply(files[i], applied[i], result.pose(i), scans[i].spacing());
+    if (!note.empty()) notes.push_back(note);
+  }
   if (picture) {
     std::vector<Surface> surfaces;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -203,9 +246,13 @@ int run_assemble(const std::vector<std::string>& arguments)
     }
     write_picture(*picture, std::move(surfaces), true);
   }
+  progress.clear();
   const bool with_times = map.count("times") > 0;
-  if (map.count("json") > 0) std::cout << to_text(to_json(result, files, with_times)) << '\n';
-  else print_text(result, names);
+  if (map.count("json") > 0) std::cout << to_text(to_json(result, files, notes, with_times)) << '\n';
+  else {
+    print_text(result, names);
+    for (const std::string& note : notes) std::cout << "note: " << note << '\n';
+  }
   if (with_times && map.count("json") == 0) {
     std::cout << "seconds: " << preparation << " to read and prepare, " << seconds_since(start) << " in all\n";
     for (const auto& stage : result.statistics())

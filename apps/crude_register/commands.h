@@ -18,13 +18,15 @@ enum Exit_code
   EXIT_REGISTERED = 0,
   EXIT_ERROR = 1,
   EXIT_AMBIGUOUS = 2,
-  EXIT_NOT_REGISTERED = 3
+  EXIT_NOT_REGISTERED = 3,
+  EXIT_INTERRUPTED = 130 // as of shells: 128 and the number of SIGINT
 };
 
 int run_register(const std::vector<std::string>& arguments);
 int run_judge(const std::vector<std::string>& arguments);
 int run_assemble(const std::vector<std::string>& arguments);
 int run_info(const std::vector<std::string>& arguments);
+int run_convert(const std::vector<std::string>& arguments);
 int run_simulate(const std::vector<std::string>& arguments);
 
 #endif // CRUDE_REGISTER_COMMANDS_H

@@ -132,6 +132,18 @@ inline std::string base_name(const std::string& file)
   return std::filesystem::path(file).filename().string();
 }
 
+// The end of a file's name, which says its format: in small letters, without that of gzip and the number of a scan.
+inline std::string format_by_name(const std::string& file)
+{
+  std::filesystem::path path(file);
+  std::string extension = path.extension().string();
+  if (extension == ".gz") extension = path.stem().extension().string();
+  extension = extension.substr(0, extension.find('#'));
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return extension;
+}
+
 inline void make_folder(const std::string& folder)
 {
   std::error_code error;

@@ -11,6 +11,7 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "scan_arguments.h"
 
 #include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
@@ -62,15 +63,20 @@ int run_info(const std::vector<std::string>& arguments)
   add("viewpoint", po::value<std::string>(), "x,y,z of the sensor, for scans whose files do not tell it");
   add("camera", po::value<std::string>(), camera_help);
   add("json", "print JSON");
-  const auto given = parse("info SCAN [OPTION...]",
-                           "Says what is in a scan, and what sections 4 and 5 of the method make of it: the sampling "
-                           "distance s,\nthe extent A in the image plane and the mean extent M, the share of smooth "
-                           "vertices, the approximation\nerror epsilon, and the vertices that the simplification "
-                           "leaves.\n",
-                           options, {"SCAN"}, arguments);
+  const Command command = {
+      "info",
+      "SCAN",
+      "Says what is in a scan, and what sections 4 and 5 of the method make of it: the sampling distance s,\nthe "
+      "extent A "
+      "in the image plane and the mean extent M, the share of smooth vertices, the approximation\nerror epsilon, and "
+      "the "
+      "vertices that the simplification leaves.\n",
+      {{"scan.ply", "what is in a scan"}, {"scan.xyz --viewpoint 0,0,0", "of points that a sensor at the origin saw"}},
+      {}};
+  const auto given = parse(command, options, {"SCAN"}, arguments);
   if (!given) return 0;
   const po::variables_map& map = *given;
-  const std::string name = map["SCAN"].as<std::string>();
+  const std::string name = scan_of_argument(map["SCAN"].as<std::string>());
   const Scan_file file = read_scan(map, name);
   const std::optional<Point> viewpoint = viewpoint_of(file, point_of(map, "viewpoint"));
   Mesh mesh = mesh_of(file, viewpoint);
@@ -101,7 +107,10 @@ int run_info(const std::vector<std::string>& arguments)
   const char* const kind = is_image ? "range image" : file.kind == Scan_file::MESH ? "mesh" : "points";
 
   if (map.count("json") > 0) {
-    Json json = {{"scan", name}, {"kind", kind}, {"samples", number_of_samples(file)}};
+    Json json = answer_of("info");
+    json["scan"] = name;
+    json["kind"] = kind;
+    json["samples"] = number_of_samples(file);
     if (is_image) {
       json["columns"] = file.image.columns();
       json["rows"] = file.image.rows();

@@ -30,6 +30,14 @@ inline std::string to_text(const Json& json)
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+// The answer of a command, as yet empty: crude_register.schema.json describes it. The version is to be raised where
+// members change or go, not where some are added.
+inline Json answer_of(const std::string& command)
+{
+  constexpr int schema_version = 1;
+  return {{"schema_version", schema_version}, {"command", command}};
+}
+
 // The three rows of the matrix of a motion.
 template <class Kernel>
 Json to_json(const CGAL::Aff_transformation_3<Kernel>& motion)

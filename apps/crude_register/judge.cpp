@@ -7,10 +7,12 @@
 
 // crude_register judge: says of a motion that somebody found whether it brings two scans together.
 
+#include "apply.h"
 #include "commands.h"
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "progress.h"
 #include "sides.h"
 
 #include <CGAL/Crude_registration/judge_motion.h>
@@ -64,10 +66,12 @@ Transformation read_motion(const std::string& file)
   return Transformation(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11]);
 }
 
-Scan scan_of(Scan_of_a_side& side)
+Scan scan_of(Scan_of_a_side& side, Progress& progress)
 {
   side.read();
-  return with_viewpoint(side.viewpoint, [&](const auto& np) { return Scan(side.contents, np, side.file); });
+  return with_viewpoint(side.viewpoint, [&](const auto& np) {
+    return Scan(side.contents, np.visitor(Terminal_visitor(progress)), side.file);
+  });
 }
 
 int exit_code_of(CR::Motion_status status)
@@ -91,34 +95,59 @@ int run_judge(const std::vector<std::string>& arguments)
   auto add = options.add_options();
   add("motion", po::value<std::string>()->required(),
       "file of the motion that maps SOURCE onto TARGET: the rows of a 3 x 4 or 4 x 4 matrix, or the JSON of register");
+  add("apply", po::value<std::string>(),
+      (apply_help + std::string("; by what refinement makes of the motion, written unless it is wrong")).c_str());
   add_options_of_sides(options);
   add("json", "print JSON, the same bytes for the same scans");
-  const auto given = parse("judge SOURCE TARGET --motion FILE [OPTION...]",
-                           "Says of a motion that somebody found whether it maps SOURCE onto TARGET.\n"
-                           "Exit code: 0 right, 2 refinable, 3 wrong, 1 error.\n",
-                           options, {"SOURCE", "TARGET"}, arguments);
+  const Command command = {
+      "judge",
+      "SOURCE TARGET --motion FILE",
+      "Says of a motion that somebody found whether it maps SOURCE onto TARGET.\n"
+      "Exit code: 0 right, 2 refinable, 3 wrong, 1 error, 130 ended by Ctrl-C.\n",
+      {{"source.ply target.ply --motion motion.txt", "says whether a matrix of another program is right"},
+       {"source.ply target.ply --motion answer.json", "the same of what register --json has printed"}},
+      {{"source-unit", "mm cm m in ft"}, {"target-unit", "mm cm m in ft"}}};
+  const auto given = parse(command, options, {"SOURCE", "TARGET"}, arguments);
   if (!given) return 0;
   const po::variables_map& map = *given;
   std::array<Scan_of_a_side, 2> sides = sides_of(map);
-  const std::string source = map["SOURCE"].as<std::string>(), target = map["TARGET"].as<std::string>(),
-                    file = map["motion"].as<std::string>();
+  const std::string source = sides[0].file, target = sides[1].file, file = map["motion"].as<std::string>();
   const Transformation motion = read_motion(file);
-  const Scan source_scan = scan_of(sides[0]), target_scan = scan_of(sides[1]);
+  const auto applied = apply_option(map, source);
+  watch_for_interruption();
+  Progress progress;
+  progress.begin_stage("reading and preparing the scans");
+  const Scan source_scan = scan_of(sides[0], progress), target_scan = scan_of(sides[1], progress);
+  progress.begin_stage("judging");
   const auto judged = [&] {
     try {
-      return CR::judge_motion<CGAL::Parallel_if_available_tag>(source_scan, target_scan, motion);
+      return CR::judge_motion<CGAL::Parallel_if_available_tag>(source_scan, target_scan, motion,
+                                                               CR::parameters::visitor(Terminal_visitor(progress)));
     } catch (const std::invalid_argument& e) {
       throw CR::IO_error(file, e.what());
     }
   };
   const CR::Motion_judgement<Kernel> judgement = judged();
+  progress.clear();
+  if (is_interrupted()) throw std::runtime_error("interrupted before the motion was judged");
   const auto& refined = judgement.refined();
   std::ostringstream status;
   status << judgement.status();
+  std::string note;
+  if (applied && judgement.status() != CR::WRONG_MOTION)
+    note = apply(source, *applied, refined.transformation() * Transformation(CGAL::SCALING, sides[0].unit),
+                 source_scan.spacing());
   if (map.count("json") > 0) {
-    Json json = {{"source", source}, {"target", target}, {"motion", file}, {"verdict", status.str()}};
+    Json json = answer_of("judge");
+    json["source"] = source;
+    json["target"] = target;
+    json["motion"] = file;
+    json["verdict"] = status.str();
     json["displacement"] = judgement.displacement();
     add_result(json["refined"], refined, false);
+    json["notes"] = note.empty() ? Json::array() : Json::array({note});
+    json["written"] = Json::array();
+    if (applied && judgement.status() != CR::WRONG_MOTION) json["written"].push_back(*applied);
     std::cout << to_text(json) << '\n';
     return exit_code_of(judgement.status());
   }
@@ -136,6 +165,8 @@ int run_judge(const std::vector<std::string>& arguments)
               << std::setprecision(12);
     write_rows(std::cout, refined.transformation(), "  ", "\n");
     std::cout << "  0 0 0 1\n";
+    if (!note.empty()) std::cout << "note:         " << note << '\n';
+    if (applied) std::cout << "written:      " << *applied << '\n';
   }
   return exit_code_of(judgement.status());
 }

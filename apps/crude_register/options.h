@@ -10,6 +10,8 @@
 
 // The arguments of a command.
 
+#include "descriptions.h"
+
 #include <CGAL/Crude_registration/named_parameters.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -38,13 +40,13 @@ struct Usage_error : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-// The arguments of a command, or nothing if they asked for help, which is written. `rest`: the name of what may be
-// given any number of times, at least once, after the others.
-inline std::optional<po::variables_map> parse(const std::string& synopsis, const std::string& about,
-                                              const po::options_description& options,
+// The arguments of a command, or nothing if they asked for help or for another text about the command, which is
+// written. `rest`: the name of what may be given any number of times, at least once, after the others.
+inline std::optional<po::variables_map> parse(const Command& command, const po::options_description& options,
                                               const std::vector<std::string>& positional,
                                               const std::vector<std::string>& arguments, const std::string& rest = "")
 {
+  if (arguments.size() == 1 && write_description(std::cout, arguments[0], command, options)) return std::nullopt;
   po::options_description all;
   all.add(options).add_options()("help,h", "");
   po::positional_options_description places;
@@ -60,7 +62,7 @@ inline std::optional<po::variables_map> parse(const std::string& synopsis, const
   try {
     po::store(po::command_line_parser(arguments).options(all).positional(places).run(), map);
     if (map.count("help") > 0) {
-      std::cout << "usage: crude_register " << synopsis << "\n\n" << about << '\n' << options;
+      write_help(std::cout, command, options);
       return std::nullopt;
     }
     po::notify(map);

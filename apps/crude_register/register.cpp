@@ -7,12 +7,14 @@
 
 // register: finds the motion that maps one scan onto another.
 
+#include "apply.h"
 #include "commands.h"
 #include "files.h"
 #include "json.h"
 #include "options.h"
-#include "run_limits.h"
 #include "picture.h"
+#include "progress.h"
+#include "run_limits.h"
 #include "sides.h"
 #include "surfaces.h"
 
@@ -81,17 +83,19 @@ Generator generator_with(const std::optional<double>& f1, const std::optional<do
 
 // Reads, prepares and registers the two scans.
 template <class Generator>
-Answer register_files(std::array<Side, 2>& sides, const Generator& generator, double time_budget)
+Answer register_files(std::array<Side, 2>& sides, const Generator& generator, double time_budget, Progress& progress)
 {
   const auto left = [&, begin = Clock::now()] { // of the time budget
     constexpr double shortest = 1e-9;
     return (std::max)(shortest, time_budget - seconds_since(begin));
   };
+  const Terminal_visitor visitor(progress);
+  progress.begin_stage("reading and preparing the scans");
   CGAL::for_each<CGAL::Parallel_if_available_tag>(sides, [&](Side& side) {
     try {
       side.read();
       const auto start = Clock::now();
-      const auto np = CR::parameters::time_budget(left()).candidates(generator);
+      const auto np = CR::parameters::time_budget(left()).candidates(generator).visitor(visitor);
       side.scan = side.viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*side.viewpoint), side.file)
                                  : std::make_unique<const Scan>(side.contents, np, side.file);
       side.seconds = seconds_since(start);
@@ -109,8 +113,9 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, do
   answer.preparation_seconds = sides[0].seconds + sides[1].seconds;
   const auto start = Clock::now();
   if (sides[0].scan && sides[1].scan) {
+    progress.begin_stage("registering");
     answer.result = CR::register_scans<CGAL::Parallel_if_available_tag>(
-        *sides[0].scan, *sides[1].scan, CR::parameters::time_budget(left()).candidates(generator));
+        *sides[0].scan, *sides[1].scan, CR::parameters::time_budget(left()).candidates(generator).visitor(visitor));
   } else {
     Result::Parts parts;
     parts.reason = sides[0].scan ? sides[1].interruption : sides[0].interruption;
@@ -203,7 +208,9 @@ std::vector<std::string> notes_of(const std::array<Side, 2>& sides)
 void print_json(const std::array<Side, 2>& sides, const Answer& answer, const std::optional<Error>& error,
                 const std::vector<std::string>& written, const std::string& hint, bool with_times)
 {
-  Json json = {{"source", sides[0].file}, {"target", sides[1].file}};
+  Json json = answer_of("register");
+  json["source"] = sides[0].file;
+  json["target"] = sides[1].file;
   add_result(json, answer.result, with_times);
   json["hint"] = hint;
   json["notes"] = notes_of(sides);
@@ -258,6 +265,7 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("output", po::value<std::string>(),
       "folder for source_moved.ply, target.ply and motion.txt (the 4 x 4 matrix); "
       "made if missing, written unless the scans are not registered");
+  add("apply", po::value<std::string>(), apply_help);
   add("picture", po::value<std::string>(),
       "file (PNG) for a picture of both scans as they were registered, the source orange and the target blue; side by "
       "side if they are not");
@@ -268,10 +276,16 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
   add("times", "add the times to the JSON");
-  return parse("register SOURCE TARGET [OPTION...]",
-               "Finds the rigid motion that maps SOURCE onto TARGET, and says whether it can be believed.\n"
-               "Exit code: 0 registered, 2 ambiguous, 3 not registered, 1 error.\n",
-               options, {"SOURCE", "TARGET"}, arguments);
+  const Command command = {
+      "register",
+      "SOURCE TARGET",
+      "Finds the rigid motion that maps SOURCE onto TARGET, and says whether it can be believed.\n"
+      "Exit code: 0 registered, 2 ambiguous, 3 not registered, 1 error, 130 ended by Ctrl-C.\n",
+      {{"source.ply target.ply", "prints the motion, and whether it can be believed"},
+       {"source.obj target.obj --apply moved.obj", "writes the file of the source moved, with all that is in it"},
+       {"a.xyz b.xyz --viewpoint 0,0,0 --json", "points that a sensor at the origin saw; the answer for programs"}},
+      {{"method", "pairs trihedra"}, {"source-unit", "mm cm m in ft"}, {"target-unit", "mm cm m in ft"}}};
+  return parse(command, options, {"SOURCE", "TARGET"}, arguments);
 }
 
 } // namespace
@@ -294,15 +308,19 @@ int run_register(const std::vector<std::string>& arguments)
   std::array<Side, 2> sides;
   const std::array<Scan_of_a_side, 2> given_sides = sides_of(map);
   for (std::size_t i = 0; i < 2; ++i) static_cast<Scan_of_a_side&>(sides[i]) = given_sides[i];
+  const auto applied = apply_option(map, sides[0].file);
+  watch_for_interruption();
+  Progress progress;
   const Answer answer = [&] {
     if (method == "pairs")
-      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget);
+      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget, progress);
     if (method == "trihedra")
-      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), time_budget);
+      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), time_budget, progress);
     throw Usage_error("--method takes pairs or trihedra, not '" + method + "'");
   }();
   const Result& result = answer.result;
 
+  progress.begin_stage("writing");
   std::optional<Error> error;
   std::vector<std::string> written;
   if (result.status() != CR::NOT_REGISTERED && (output || poses_file)) {
@@ -316,6 +334,14 @@ int run_register(const std::vector<std::string>& arguments)
       written = write_output(*output, result.transformation(), source, mesh_of(sides[1].contents, sides[1].viewpoint));
   }
 
+  if (applied && result.status() != CR::NOT_REGISTERED) {
+    const Transformation in_unit(CGAL::SCALING, sides[0].unit);
+    const std::string note =
+        apply(sides[0].file, *applied, result.transformation() * in_unit, sides[0].scan->spacing());
+    if (!note.empty()) sides[0].contents.notes.push_back(note);
+    written.push_back(*applied);
+  }
+
   if (picture) {
     std::vector<Surface> surfaces;
     for (const Side& side : sides) surfaces.push_back(surface_to_show(side.contents, side.viewpoint, side.scan.get()));
@@ -324,6 +350,7 @@ int run_register(const std::vector<std::string>& arguments)
     written.push_back(*picture);
   }
 
+  progress.clear();
   const std::string hint = result.status() == CR::REGISTERED ? "" : hint_of(sides);
   if (map.count("json") > 0) print_json(sides, answer, error, written, hint, map.count("times") > 0);
   else print_text(sides, answer, error, written, hint);

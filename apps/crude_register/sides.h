@@ -12,6 +12,7 @@
 
 #include "files.h"
 #include "options.h"
+#include "scan_arguments.h"
 
 #include <CGAL/Crude_registration/IO/Depth_camera.h>
 
@@ -93,7 +94,7 @@ inline std::array<Scan_of_a_side, 2> sides_of(const po::variables_map& map)
 {
   std::array<Scan_of_a_side, 2> sides;
   for (std::size_t i = 0; i < 2; ++i) {
-    sides[i].file = map[i == 0 ? "SOURCE" : "TARGET"].as<std::string>();
+    sides[i].file = scan_of_argument(map[i == 0 ? "SOURCE" : "TARGET"].as<std::string>());
     sides[i].viewpoint = viewpoint_of(map, i == 0 ? "source" : "target");
     sides[i].camera = camera_of(map, sides[i].file);
     sides[i].without_viewpoint = map.count("no-viewpoint") > 0;

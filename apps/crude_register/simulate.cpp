@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "files.h"
 #include "options.h"
+#include "progress.h"
 
 #include <CGAL/Crude_registration/IO/write_range_image.h>
 #include <CGAL/Crude_registration/simulation/make_statue.h>
@@ -46,10 +47,14 @@ int run_simulate(const std::vector<std::string>& arguments)
   add("perspective", "lines of sight from one point, instead of parallel ones");
   add("resolution", po::value<int>()->default_value(96), "cells along the body");
   add("seed", po::value<unsigned>()->default_value(0), "which body, and which noise");
-  const auto given = parse("simulate --output DIR [OPTION...]",
-                           "Writes range scans of a generated body, each in the frame of its sensor, and their true "
-                           "poses.\n",
-                           options, {}, arguments);
+  const Command command = {
+      "simulate",
+      "--output DIR",
+      "Writes range scans of a generated body, each in the frame of its sensor, and their true poses.\n",
+      {{"--output scans", "two scans that overlap"},
+       {"--output scans --scans 8 --seed 3", "eight scans from all around another body"}},
+      {}};
+  const auto given = parse(command, options, {}, arguments);
   if (!given) return 0;
   const po::variables_map& map = *given;
   const std::string folder = map["output"].as<std::string>();
@@ -68,12 +73,15 @@ int run_simulate(const std::vector<std::string>& arguments)
     const double top = CGAL::Polygon_mesh_processing::bbox(body).zmin() + 0.15;
     CR::make_pedestal(body, *side, top - *side / 2, top);
   }
+  watch_for_interruption();
+  Progress progress;
+  progress.begin_stage("simulating");
   const CR::Simulated_scene scene(body);
   make_folder(folder);
   std::ostringstream poses;
   poses.imbue(std::locale::classic());
   poses.precision(std::numeric_limits<double>::max_digits10);
-  for (int i = 0; i < scans; ++i) {
+  for (int i = 0; i < scans && !is_interrupted(); ++i) {
     // From above, a little.
     const Kernel::Vector_3 direction(-std::cos(i * angle), -std::sin(i * angle), -0.25);
     auto camera = CR::Range_camera<Kernel>::framing(CGAL::Polygon_mesh_processing::bbox(body), direction,
@@ -89,8 +97,11 @@ int run_simulate(const std::vector<std::string>& arguments)
     poses << name;
     write_rows(poses, scan.scene_from_scan, " ", "");
     poses << '\n';
-    std::cout << in_folder(folder, name) << ", " << scan.image.points().size() << " samples\n";
+    progress.clear();
+    std::cout << in_folder(folder, name) << ", " << scan.image.points().size() << " samples\n" << std::flush;
+    progress.begin_stage("simulating");
   }
+  progress.clear();
   const std::string poses_file = in_folder(folder, "poses.txt");
   CR::write_file(poses_file, [&](std::ostream& out) { out << poses.str(); });
   std::cout << poses_file << '\n';

@@ -54,10 +54,40 @@ holds()
 }
 
 # Help.
-for command in "" register assemble info simulate; do
+for command in "" register judge assemble info convert simulate; do
   expect 0 $command --help
   says usage:
+  head -n 1 out.txt | grep -q "^  crude_register [a-z]* " || fail "the help of '$command' does not begin with an example"
 done
+
+# What is made of the same texts: the man page and the completions.
+expect 0 --man
+for option in apply motion graph camera pedestal; do says "\\-\\-$option"; done
+if command -v groff > /dev/null; then
+  [ -z "$(groff -man -Tutf8 -ww -z out.txt 2>&1)" ] || fail "groff complains: $(groff -man -Tutf8 -ww -z out.txt 2>&1 | head -3)"
+fi
+expect 0 --bash-completion
+cp out.txt completion.bash
+completes() # EXPECTED WORD...
+{
+  local expected=$1 got
+  shift
+  got=$(bash -c '. ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _crude_register; echo "${COMPREPLY[*]}"' \
+    bash crude_register "$@")
+  [ "$got" = "$expected" ] || fail "bash completes '$*' to '$got', not to '$expected'"
+}
+completes "register" reg
+completes "--apply" register a.ply --ap
+completes "--time-budget --times" assemble --time
+completes "--times" register --times
+completes "pairs trihedra" register a.ply --method ""
+completes "mm m" judge --source-unit m
+completes "" info ""
+expect 0 --zsh-completion
+if command -v zsh > /dev/null; then
+  zsh -n out.txt 2> err.txt || fail "zsh does not read its completion: $(cat err.txt)"
+fi
+expect 0 --version
 
 # Wrong use.
 rejects "no command"
@@ -250,6 +280,46 @@ awk -v p="$first" 'BEGIN { split(p, x, " "); o[1] = 500000; o[2] = 5000000; o[3]
   END { for (i = 1; i <= 3; ++i) { d = a[i] - b[i]; if (d > 1e-3 || d < -1e-3) { print a[i], b[i]; exit 1 } } }' \
   near/motion.txt far/motion.txt || fail "scans far from the origin get another motion"
 
+# The scan itself, moved: what else is in its file stays, and what is written lies on the target.
+awk '{ print "n" NR, $0, NR % 256, "#" NR }' points_0.xyz > named_0.txt
+sed -i '1i name x y z red remark' named_0.txt
+apply="--source-viewpoint $source_sensor --target-viewpoint $target_sensor --apply"
+expect 0 register named_0.txt points_1.xyz $apply moved_0.txt
+says "written:    moved_0.txt"
+diff <(cut -d ' ' -f 1,5- named_0.txt) <(cut -d ' ' -f 1,5- moved_0.txt) > /dev/null || fail "--apply changes other columns"
+# near/motion.txt is the motion of the same scans.
+awk 'FILENAME ~ /motion/ { for (j = 1; j <= 4; ++j) m[FNR, j] = $j; next }
+  FILENAME ~ /named/ { for (j = 1; j <= 3; ++j) p[FNR, j] = $(j + 1); next }
+  FNR > 1 { for (i = 1; i <= 3; ++i) { d = m[i, 4] - $(i + 1); for (j = 1; j <= 3; ++j) d += m[i, j] * p[FNR, j]
+      if (d < -1e-9 || d > 1e-9) exit 1 } } END { exit FNR < 1000 }' near/motion.txt named_0.txt moved_0.txt ||
+  fail "--apply does not move the points by the motion"
+mkdir -p applied
+expect 0 register named_0.txt points_1.xyz $apply applied --json
+holds /written/0 '"applied/named_0.txt"'
+cmp -s applied/named_0.txt moved_0.txt || fail "--apply writes another file into a folder"
+expect 0 register $pair --json
+cp out.txt answer.json
+expect 0 judge $pair --motion answer.json --apply judged.ply
+says "written:      judged.ply"
+grep -q '^obj_info viewing_direction' judged.ply || fail "--apply loses the sensor"
+[ "$(wc -l < judged.ply)" -eq "$(wc -l < scans/scan_0.ply)" ] || fail "--apply changes the number of lines"
+expect 0 assemble $many --apply applied_many
+[ "$(ls applied_many | tr '\n' ' ')" = "scan_0.ply scan_1.ply scan_2.ply scan_3.ply " ] ||
+  fail "--apply of assemble has written $(ls applied_many)"
+cmp -s applied_many/scan_2.ply many/scan_2.ply || fail "--apply changes the scan that fixes the frame"
+expect 0 assemble applied_many/*.ply --poses poses.txt
+awk '!/^#/ { for (i = 0; i < 3; ++i) for (j = 0; j < 4; ++j) { d = $(2 + 4 * i + j) - (i == j); if (d < -0.01 || d > 0.01) exit 1 } }' \
+  poses.txt || fail "what --apply of assemble wrote does not lie together: $(cat poses.txt)"
+expect 3 register scans/scan_0.ply other/scan_0.ply --apply nothing.ply
+[ -e nothing.ply ] && fail "--apply writes although the scans are not registered"
+printf 'LASF' > some.las
+rejects "cannot be written moved" register some.las absent.ply --apply moved.las
+rejects "in .ply" register scans/scan_0.ply absent.ply --apply moved.obj
+rejects "does not write over" register scans/scan_0.ply absent.ply --apply ./scans/../scans/scan_0.ply
+rejects "there is no folder nowhere" register scans/scan_0.ply absent.ply --apply nowhere/moved.ply
+rejects "two scans of this name" assemble scans/scan_0.ply other/scan_0.ply --apply applied_two
+[ -e applied_two ] && fail "--apply makes a folder before it is sure"
+
 # Units: the same scans, one in another unit, are told from each other and registered.
 awk '{ printf "%.9g %.9g %.9g\n", $1 / 1000, $2 / 1000, $3 / 1000 }' points_0.xyz > metres_0.xyz
 metres_sensor=$(awk -F, '{ printf "%.9g,%.9g,%.9g", $1 / 1000, $2 / 1000, $3 / 1000 }' sensor_0.txt)
@@ -258,7 +328,12 @@ metres_sensor=$(awk -F, '{ printf "%.9g,%.9g,%.9g", $1 / 1000, $2 / 1000, $3 / 1
 says "hint:       the target is "
 says "--target-unit mm --source-unit m"
 expect 0 register metres_0.xyz points_1.xyz --source-viewpoint "$metres_sensor" --target-viewpoint "$target_sensor" \
-  --target-unit mm --source-unit m
+  --target-unit mm --source-unit m --apply millimetres_0.xyz
+awk 'NR == FNR { for (j = 1; j <= 3; ++j) a[FNR, j] = $j; n = FNR; next }
+  FNR > 1 && FNR <= n { s = 0; t = 0; for (j = 1; j <= 3; ++j) { s += (a[FNR, j] - a[1, j]) ^ 2; t += ($j - p0[j]) ^ 2 }
+    if (t < 1e6 * s * 0.9999 || t > 1e6 * s * 1.0001) exit 1 }
+  FNR == 1 { for (j = 1; j <= 3; ++j) p0[j] = $j }' metres_0.xyz millimetres_0.xyz ||
+  fail "--apply does not write the unit of the target"
 rejects "--source-unit" register $pair --source-unit yard --target-unit m
 rejects "given together" register $pair --source-unit m
 rejects "--camera" register a.png b.png --camera 1,2,3
@@ -294,6 +369,44 @@ rejects "it is a folder" register absent.ply absent.ply --picture scans
 for option in picture poses output table graph; do
   rejects "there is no folder nowhere" assemble absent.ply absent.ply --$option nowhere/file
 done
+
+# Folders and patterns where scans are expected.
+expect 0 assemble many/*.ply --json
+grep -v '"file"' out.txt > by_name.json
+expect 0 assemble many --json
+grep -v '"file"' out.txt | cmp -s - by_name.json || fail "a folder does not stand for its scans"
+expect 0 assemble './many/*.ply' --json
+grep -v '"file"' out.txt | cmp -s - by_name.json || fail "a pattern does not stand for the files that it fits"
+mkdir -p empty
+rejects "there is no scan in the folder" assemble empty
+rejects "nothing_*.ply: " assemble scans/scan_0.ply 'nothing_*.ply'
+rejects "one scan is expected, but this stands for 2" register scans scans/scan_1.ply
+expect 0 info 'scans/*_0.ply'
+
+# Conversion: what is read back is the same.
+for format in ply off obj stl pcd npy xyz txt asc csv; do
+  expect 0 convert scans/scan_0.ply converted.$format
+  says "written: converted.$format"
+  expect 0 info converted.$format --viewpoint 0,0,9 --json
+  cp out.txt converted.json
+  case $format in
+    ply) expected='"range image"' ;;
+    off | obj | stl) expected='"mesh"' ;;
+    *) expected='"points"' ;;
+  esac
+  case $format in pcd | npy) expected='"range image"' ;; esac
+  holds /kind "$expected"
+done
+expect 0 convert converted.npy again.ply
+diff <(awk 'body && NF == 3' body=1 scans/scan_0.ply | grep -v '[a-z]') <(awk 'body && NF == 3' body=1 again.ply | grep -v '[a-z]') > /dev/null ||
+  fail "a range image that was converted twice has other samples"
+expect 0 convert converted.csv again.xyz
+cmp -s again.xyz converted.xyz || fail "points that were converted twice are others"
+expect 0 convert plane_0.xyz plane.off --viewpoint 20,15,100
+rejects "has to end in" convert scans/scan_0.ply converted.docx
+rejects "there is no folder nowhere" convert scans/scan_0.ply nowhere/converted.ply
+rejects "absent.ply" convert absent.ply converted.ply
+rejects "OUTPUT" convert scans/scan_0.ply
 
 # Information.
 expect 0 info scans/scan_0.ply

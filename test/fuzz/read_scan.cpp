@@ -1,5 +1,6 @@
-// The first byte says the format, the others are the file: a scan, or an IO_error.
+// The first byte says the format, the others are the file: a scan, which is written moved, or an IO_error.
 
+#include <CGAL/Crude_registration/IO/apply_motion.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -51,6 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::ofstream out(name, std::ios::binary);
     out.write(reinterpret_cast<const char*>(data + 1), std::streamsize(size - 1));
   }
+  const std::string moved = name + ".moved";
   try {
     const Scan scan = CR::read_scan<Kernel>(name, {500, 500, 3, 2, 1000});
     if (scan.kind == Scan::MESH && (!CGAL::is_valid_polygon_mesh(scan.mesh) || scan.mesh.is_empty())) std::abort();
@@ -65,8 +67,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (!is_finite(scan.mesh.point(v))) std::abort();
     for (const auto& p : scan.image.points())
       if (!is_finite(p)) std::abort();
+    CR::apply_motion(name, moved, CGAL::Aff_transformation_3<Kernel>(0, -1, 0, 10, 1, 0, 0, 20, 0, 0, 1, 30));
   } catch (const CR::IO_error&) {
   }
   std::remove(name.c_str());
+  std::remove(moved.c_str());
   return 0;
 }

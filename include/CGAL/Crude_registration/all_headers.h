@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/Assembly_result.h>
 #include <CGAL/Crude_registration/Assembly_status.h>
 #include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/IO/apply_motion.h>
 #include <CGAL/Crude_registration/IO/read_range_image.h>
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/IO/save_scan.h>

@@ -48,8 +48,8 @@ public:
     read_header();
     Flat_scan_file scan;
     if (m_format == "ascii") read_ascii(scan);
-    else if (m_format == "binary") read_binary(m_data.substr(m_body), 0, scan);
-    else read_packed(scan);
+    else if (m_format == "binary") read_binary(m_data.substr(m_body), scan);
+    else read_binary(unpacked_body(), scan);
     if (m_columns > 1 && m_rows > 1) {
       scan.kind = Flat_scan_file::RANGE_IMAGE;
       scan.columns = m_columns;
@@ -63,17 +63,45 @@ public:
     return scan;
   }
 
-private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
   struct Field
   {
     std::string name;
     std::size_t size = 0;
     char type = 'F';
     std::size_t count = 1;
-    std::size_t offset = 0; // in a point, in bytes
-    std::size_t role = none;
+    std::size_t offset = 0;  // in a point, in bytes
+    std::size_t role = none; // x, y, z, and those of the normal
   };
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  // --- for what writes the file anew ---------------------------------------------------------------------------------
+
+  // Before what follows here.
+  void read_head() { read_header(); }
+
+  const std::vector<Field>& fields() const { return m_fields; }
+  bool has_normals() const { return m_has_normals; }
+  bool is_text() const { return m_format == "ascii"; }
+  bool is_packed() const { return m_format == "binary_compressed"; }
+  std::size_t points() const { return m_points; }
+  std::size_t body() const { return m_body; }
+  const std::array<double, 7>& viewpoint() const { return m_viewpoint; }
+  const std::array<std::string_view, 7>& viewpoint_words() const { return m_viewpoint_words; } // empty if there is none
+
+  // Where a field of a point stands in the body, if it is no text: unpacked, field after field.
+  std::size_t place(std::size_t point, const Field& f) const
+  {
+    return is_packed() ? f.offset * m_points + point * f.size : point * m_point_size + f.offset;
+  }
+
+  std::string unpacked_body() const
+  {
+    std::string unpacked;
+    unpack(unpacked);
+    return unpacked;
+  }
+
+private:
   using Values = std::array<double, 6>; // of a point and its normal
 
   // --- header -------------------------------------------------------------------------------------------------------
@@ -142,6 +170,8 @@ private:
 
   void read_viewpoint()
   {
+    Text_cursor words = m_cursor;
+    for (std::string_view& word : m_viewpoint_words) word = words.word();
     for (double& x : m_viewpoint) {
       x = m_cursor.number("a number of the viewpoint");
       if (!std::isfinite(x)) m_cursor.fail("the viewpoint is not finite");
@@ -198,8 +228,7 @@ private:
     return "the file ends after " + std::to_string(i) + " of " + std::to_string(m_points) + " points";
   }
 
-  // `stride`: from a value of a field to the next point's, where the fields stand one after the other; else 0.
-  void read_binary(std::string_view body, std::size_t fields_apart, Flat_scan_file& scan) const
+  void read_binary(std::string_view body, Flat_scan_file& scan) const
   {
     if (m_points > 0 && body.size() / m_points < m_point_size)
       throw IO_error(m_file, "byte " + std::to_string(m_data.size()) + ": " + ends_after(body.size() / m_point_size));
@@ -208,14 +237,12 @@ private:
     for (std::size_t i = 0; i < m_points; ++i) {
       Values values{};
       for (const Field& f : m_fields)
-        if (f.role != none)
-          values[f.role] =
-              value_at(body, fields_apart > 0 ? f.offset * m_points + i * f.size : i * m_point_size + f.offset, f);
+        if (f.role != none) values[f.role] = value_at(body, place(i, f), f);
       add(values, scan);
     }
   }
 
-  void read_packed(Flat_scan_file& scan) const
+  void unpack(std::string& unpacked) const
   {
     const std::size_t head = 8;
     const auto fail = [&](std::size_t byte, const std::string& what) {
@@ -229,10 +256,8 @@ private:
     if (m_points > 0 ? size / m_points != m_point_size || size % m_points != 0 : size != 0)
       fail(m_body + 4, "the packed data has " + std::to_string(size) + " bytes, but the header declares " +
                            std::to_string(m_points) + " points of " + std::to_string(m_point_size));
-    std::string unpacked;
     if (!unpack_lzf(m_data.substr(m_body + head, packed), size, unpacked))
       fail(m_body + head, "the packed data is damaged");
-    read_binary(unpacked, 1, scan);
   }
 
   static double value_at(std::string_view body, std::size_t at, const Field& f)
@@ -265,6 +290,7 @@ private:
   std::size_t m_columns = none, m_rows = 1, m_points = none, m_point_size = 0;
   std::size_t m_body = 0; // where the data starts, in bytes
   bool m_has_normals = false;
+  std::array<std::string_view, 7> m_viewpoint_words;
   std::array<double, 7> m_viewpoint = {0, 0, 0, 1, 0, 0, 0}; // place, and turn as a quaternion
   std::string m_format;
 };

@@ -94,6 +94,8 @@ public:
     if (m_cursor.has_word()) m_cursor.fail("more values than the header declares");
   }
   double number(const Ply_property& p) { return m_cursor.number(p.name.c_str()); }
+  // where it stands, before it is read
+  std::string_view place(const Ply_property&) const { return Text_cursor(m_cursor).word(); }
   long long count(const Ply_property&) { return m_cursor.integer("the length of a list"); }
   long long index(const Ply_property& p) { return m_cursor.integer(p.name.c_str()); }
   void skip(const Ply_property&)
@@ -142,6 +144,7 @@ public:
       return get<double>();
     }
   }
+  std::string_view place(const Ply_property& p) const { return m_data.substr(m_position, size(p.type)); }
   long long count(const Ply_property& p) { return integer(p.count_type); }
   long long index(const Ply_property& p) { return integer(p.type); }
   void skip(const Ply_property& p) { advance(size(p.type)); }

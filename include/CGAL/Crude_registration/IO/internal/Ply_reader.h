@@ -72,6 +72,25 @@ public:
     return std::move(m_contents);
   }
 
+  // --- for what writes the file anew ---------------------------------------------------------------------------------
+
+  // Before what follows here.
+  void read_head() { read_header(); }
+
+  // What the head says of a sensor: a place or a direction.
+  struct Sensor_words
+  {
+    bool is_direction;
+    std::array<std::string_view, 3> words;
+    std::array<double, 3> values;
+  };
+  const std::vector<Sensor_words>& sensor_words() const { return m_sensor_words; }
+  const std::vector<Ply_element>& elements() const { return m_elements; }
+  bool is_text() const { return m_format == ASCII; }
+  bool is_big_endian() const { return m_format == BINARY_BIG_ENDIAN; }
+  std::size_t body() const { return m_body; }
+  std::size_t body_line() const { return m_body_line; }
+
 private:
   enum Format
   {
@@ -178,12 +197,16 @@ private:
     return static_cast<std::size_t>(n);
   }
 
-  static bool read_vector(Text_cursor& cursor, std::array<double, 3>& v, const char* key)
+  bool read_vector(Text_cursor& cursor, std::array<double, 3>& v, const char* key)
   {
+    Text_cursor words = cursor;
     for (double& coordinate : v) {
       coordinate = cursor.number(key);
       if (!std::isfinite(coordinate)) cursor.fail(std::string(key) + " is not finite");
     }
+    Sensor_words found = {std::string_view(key) == "viewing_direction", {}, v};
+    for (std::string_view& word : found.words) word = words.word();
+    m_sensor_words.push_back(found);
     return true;
   }
 
@@ -309,6 +332,7 @@ private:
   const std::string& m_file;
   Format m_format = NO_FORMAT;
   std::vector<Ply_element> m_elements;
+  std::vector<Sensor_words> m_sensor_words;
   std::uint64_t m_vertex_count = 0;
   bool m_has_normals = false;
   std::size_t m_body = 0;      // where the body starts, in bytes

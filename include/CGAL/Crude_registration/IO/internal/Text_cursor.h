@@ -69,6 +69,7 @@ public:
 
   // Numbers may have a comma for a point, as where the language says so; the separator is none then, or another.
   void set_decimal_comma(bool on) { m_decimal_comma = on; }
+  bool has_decimal_comma() const { return m_decimal_comma; }
 
   // A word may stand in quotation marks, a separator within them being a part of it.
   void set_quotes(bool on) { m_quotes = on; }

@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,6 +49,7 @@ public:
   {
     Flat_scan_file scan;
     if (!to_first_point()) throw IO_error(m_cursor.file(), what_is_missing());
+    m_first_point.emplace(m_cursor);
     if (m_has_names) read_named(scan);
     else read_unnamed(scan);
     if (m_declared >= 0 && static_cast<std::size_t>(m_declared) != scan.points.size())
@@ -55,6 +57,30 @@ public:
                                           " points, but its first line says " + std::to_string(m_declared));
     return scan;
   }
+
+  // After read(), for what writes the file anew: once more through the numbers of the points and their normals.
+  // number(column, word, value): the column counts x, y, z, and those of the normal; end() follows each point.
+  template <class Number, class End>
+  void for_each_number(const Number& number, const End& end) const
+  {
+    std::size_t last = 0;
+    for (const std::size_t place : m_places)
+      if (place != none) last = (std::max)(last, place);
+    Text_cursor cursor = *m_first_point;
+    do {
+      for (std::size_t place = 0; place <= last; ++place) {
+        const auto it = std::find(m_places.begin(), m_places.end(), place);
+        double value = 0;
+        if (it != m_places.end()) Text_cursor(cursor).try_number(value);
+        const std::string_view word = cursor.word();
+        if (it != m_places.end()) number(static_cast<std::size_t>(it - m_places.begin()), word, value);
+      }
+      end();
+    } while (next_point(cursor));
+  }
+
+  // Whether a comma may be that of a number.
+  bool may_have_decimal_commas() const { return m_first_point->has_decimal_comma(); }
 
 private:
   enum Column // what a column may hold
@@ -147,10 +173,10 @@ private:
     return line.substr(0, 2) == "//" ? 2 : 0;
   }
 
-  bool next_point()
+  static bool next_point(Text_cursor& cursor)
   {
-    while (m_cursor.next_line())
-      if (comment_mark(m_cursor.rest()) == 0) return true;
+    while (cursor.next_line())
+      if (comment_mark(cursor.rest()) == 0) return true;
     return false;
   }
 
@@ -238,6 +264,7 @@ private:
   {
     std::size_t last = (std::max)({m_places[X], m_places[Y], m_places[Z]});
     const bool normals = has_normals(m_places);
+    if (!normals) m_places[NX] = m_places[NY] = m_places[NZ] = none;
     if (normals) last = (std::max)({last, m_places[NX], m_places[NY], m_places[NZ]});
     do {
       std::array<double, COLUMNS> values{};
@@ -250,7 +277,7 @@ private:
       }
       scan.points.emplace_back(values[X], values[Y], values[Z]);
       if (normals) scan.normals.push_back(unit_normal(Vector(values[NX], values[NY], values[NZ])));
-    } while (next_point());
+    } while (next_point(m_cursor));
   }
 
   // Seven columns are looked at: a number of the point, the point, its normal.
@@ -275,7 +302,7 @@ private:
       fewest = (std::min)(fewest, columns);
       most = (std::max)(most, columns + (m_cursor.has_word() ? 1 : 0));
       ++rows;
-    } while (next_point());
+    } while (next_point(m_cursor));
 
     // Three points in a row may well have growing whole coordinates: more columns, or a count, are needed to tell.
     const bool is_numbered = rows >= 3 && first_is_increasing && fewest > 3;
@@ -290,6 +317,7 @@ private:
       const double* p = &table[i * width + first];
       scan.points.emplace_back(p[0], p[1], p[2]);
     }
+    for (std::size_t column = 0; column < 3; ++column) m_places[column] = first + column;
     if (fewest != first + 6 || most != first + 6) return;
     std::vector<Vector> others;
     others.reserve(rows);
@@ -298,6 +326,8 @@ private:
       others.emplace_back(v[0], v[1], v[2]);
     }
     take_unit_columns(std::move(others), scan);
+    if (scan.normals.empty()) return;
+    for (std::size_t column = NX; column < COLUMNS; ++column) m_places[column] = first + column;
   }
 
   static bool is_integer(std::string_view line, double value)
@@ -310,6 +340,7 @@ private:
   }
 
   Text_cursor m_cursor;
+  std::optional<Text_cursor> m_first_point; // at its line
   Places m_places = no_places();
   bool m_has_names = false;
   long long m_declared = -1;

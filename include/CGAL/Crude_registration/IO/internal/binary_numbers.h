@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace CGAL {
@@ -42,6 +43,16 @@ T number_at(std::string_view data, std::size_t at, bool big_endian = false)
   T value;
   std::memcpy(&value, bytes, sizeof(T));
   return value;
+}
+
+// Puts a number there.
+template <class T>
+void put_number(std::string& data, std::size_t at, T value, bool big_endian = false)
+{
+  unsigned char bytes[sizeof(T)];
+  std::memcpy(bytes, &value, sizeof(T));
+  if (big_endian == is_little_endian()) std::reverse(bytes, bytes + sizeof(T));
+  std::memcpy(&data[at], bytes, sizeof(T));
 }
 
 } // namespace internal

@@ -12,9 +12,10 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_LZF_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_LZF_H
 
-// Unpacks what LZF has packed.
+// Unpacks what LZF has packed, and packs it.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -55,6 +56,48 @@ inline bool unpack_lzf(std::string_view packed, std::size_t size, std::string& u
     for (std::size_t from = unpacked.size() - distance, k = 0; k < length; ++k) unpacked.push_back(unpacked[from + k]);
   }
   return unpacked.size() == size;
+}
+
+// Packs bytes in this format: three bytes that stood before, where their hash says, become a reference as long as the
+// two places agree; all others stay as they are.
+inline std::string pack_lzf(std::string_view data)
+{
+  constexpr std::size_t longest = 264, farthest = 8192, bits = 14, unknown = static_cast<std::size_t>(-1);
+  std::string packed;
+  std::array<std::size_t, std::size_t(1) << bits> last;
+  last.fill(unknown);
+  const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(data[i])); };
+  std::size_t begin = 0; // of the bytes that are not written yet
+  const auto write_bytes = [&](std::size_t end) {
+    while (begin < end) {
+      const std::size_t length = (std::min)(end - begin, std::size_t(32));
+      packed += static_cast<char>(length - 1);
+      packed += data.substr(begin, length);
+      begin += length;
+    }
+  };
+  for (std::size_t i = 0; i + 2 < data.size();) {
+    // Knuth's multiplier, of which the upper bits are well mixed
+    const std::size_t hash =
+        ((byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2)) * 2654435761u & 0xffffffffu) >> (32 - bits);
+    const std::size_t from = last[hash];
+    last[hash] = i;
+    std::size_t length = 0;
+    if (from != unknown && i - from <= farthest)
+      while (length < longest && i + length < data.size() && data[from + length] == data[i + length]) ++length;
+    if (length < 3) {
+      ++i;
+      continue;
+    }
+    write_bytes(i);
+    const std::size_t l = length - 2, distance = i - from - 1;
+    packed += static_cast<char>((std::min)(l, std::size_t(7)) << 5 | distance >> 8);
+    if (l >= 7) packed += static_cast<char>(l - 7);
+    packed += static_cast<char>(distance & 255);
+    begin = i += length;
+  }
+  write_bytes(data.size());
+  return packed;
 }
 
 } // namespace internal

@@ -130,9 +130,9 @@ public:
     return m_soup;
   }
 
-private:
   static constexpr std::size_t header = 84, record = 50;
 
+  // of the triangles of a binary file
   std::uint32_t count() const
   {
     std::uint32_t n = 0;
@@ -147,6 +147,7 @@ private:
     return m_data.size() - header == record * std::size_t(count()) || m_data.substr(0, 5) != "solid";
   }
 
+private:
   void read_binary()
   {
     const std::size_t n = count();

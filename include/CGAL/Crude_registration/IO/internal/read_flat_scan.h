@@ -17,6 +17,7 @@
 #include <CGAL/Crude_registration/IO/Depth_camera.h>
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/internal/Flat_scan_file.h>
+#include <CGAL/Crude_registration/IO/internal/read_file.h>
 #include <CGAL/Crude_registration/internal/base/compiled.h>
 
 #include <string>
@@ -35,9 +36,6 @@ std::vector<std::string> names_of_scans(const std::string& filename);
 
 // A PLY file that holds a range image; `name`: of the file, in errors. \throws IO_error
 Flat_scan_file parse_flat_range_image(const std::string& data, const std::string& name);
-
-// The bytes of a file. \throws IO_error
-std::string read_file(const std::string& filename);
 
 } // namespace internal
 } // namespace Crude_registration

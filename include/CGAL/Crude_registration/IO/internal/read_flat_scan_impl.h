@@ -24,7 +24,7 @@
 #include <CGAL/Crude_registration/IO/internal/read_las.h>
 #include <CGAL/Crude_registration/IO/internal/read_npy.h>
 #include <CGAL/Crude_registration/IO/internal/read_ptx.h>
-#include <CGAL/Crude_registration/IO/internal/unpack_gzip.h>
+#include <CGAL/Crude_registration/IO/internal/scan_format.h>
 #include <CGAL/Crude_registration/internal/sampling/Flat_range_image.h>
 #include <CGAL/Crude_registration/internal/sampling/estimate_flat_sensor.h>
 
@@ -36,18 +36,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 #include <locale>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -254,45 +251,6 @@ inline Flat_scan_file read_vtp([[maybe_unused]] const std::string& file)
 #endif
 }
 
-// The number behind the last # of a name, which is taken off; 0 where there is none, or where a file has that name.
-inline std::size_t take_off_number(std::string& filename)
-{
-  const std::size_t mark = filename.rfind('#');
-  if (mark == std::string::npos || std::filesystem::exists(filename)) return 0;
-  std::size_t number = 0;
-  const char *const first = filename.data() + mark + 1, *const last = filename.data() + filename.size();
-  const auto r = std::from_chars(first, last, number);
-  if (r.ec != std::errc() || r.ptr != last || number == 0) return 0;
-  filename.resize(mark);
-  return number;
-}
-
-inline std::string lower_case_extension(const std::string& filename)
-{
-  std::string extension = std::filesystem::path(filename).extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
-// The contents of a file, and the end of its name, which says the format.
-struct Named_contents
-{
-  std::string data, extension;
-};
-
-inline Named_contents contents_of(const std::string& filename)
-{
-  Named_contents contents = {read_file(filename), lower_case_extension(filename)};
-  if (contents.data.compare(0, 2, "\x1f\x8b") == 0) {
-    contents.data = unpack_gzip(contents.data, filename);
-    if (contents.extension == ".gz") contents.extension = lower_case_extension(filename.substr(0, filename.size() - 3));
-  }
-  if (contents.data.compare(0, 3, "\xef\xbb\xbf") == 0) contents.data.erase(0, 3); // the mark of UTF-8
-  if (contents.data.empty()) throw IO_error(filename, "the file is empty");
-  return contents;
-}
-
 inline Flat_scan_file read_text(std::string_view text, const std::string& file)
 {
   const auto starts_with = [&](std::string_view start) { return text.substr(0, start.size()) == start; };
@@ -307,33 +265,42 @@ CGAL_CRUDE_REGISTRATION_INLINE Flat_scan_file read_flat_scan(const std::string& 
 {
   std::string filename = name;
   const std::size_t number = take_off_number(filename);
-  const auto [data, extension] = contents_of(filename);
-  const auto starts_with = [&, &bytes = data](const char* magic) {
-    return bytes.compare(0, std::string_view(magic).size(), magic) == 0;
-  };
-
-  if (extension == ".ptx") return Ptx_reader(data, filename).read(number);
-  if (number > 0) throw IO_error(filename, "only a PTX file has scans with numbers");
-  if (extension == ".ply" || starts_with("ply\n") || starts_with("ply\r"))
+  const Named_contents contents = contents_of(filename);
+  const std::string& data = contents.data;
+  const Scan_format format = format_of(contents);
+  if (number > 0 && format != Scan_format::PTX) throw IO_error(filename, "only a PTX file has scans with numbers");
+  switch (format) {
+  case Scan_format::PTX:
+    return Ptx_reader(data, filename).read(number);
+  case Scan_format::PLY:
     return to_scan(read_ply(data, filename), filename);
-  if (extension == ".off" || starts_with("OFF") || starts_with("COFF") || starts_with("NOFF"))
+  case Scan_format::OFF:
     return to_scan(read_off(data, filename), filename);
-  if (extension == ".pcd" || starts_with("# .PCD")) return read_pcd(data, filename);
-  if (starts_with("\x93NUMPY")) {
+  case Scan_format::PCD:
+    return read_pcd(data, filename);
+  case Scan_format::NPY: {
     Flat_scan_file scan = Npy_reader(data, filename).read();
     return scan.kind == Flat_scan_file::RANGE_IMAGE ? to_image(std::move(scan), filename)
                                                     : to_scan(std::move(scan), filename);
   }
-  if (starts_with("\x89PNG")) return read_depth_image(data, camera, filename);
-  if (extension == ".las" || extension == ".laz" || starts_with("LASF"))
+  case Scan_format::PNG:
+    return read_depth_image(data, camera, filename);
+  case Scan_format::LAS:
     return to_scan(read_las(data, filename), filename);
-  if (extension == ".e57" || starts_with("ASTM-E57"))
+  case Scan_format::E57:
     throw IO_error(filename,
                    "E57 is not read: convert the scan to PTX or PLY, with CloudCompare or the scanner's program");
-  if (extension == ".obj") return to_scan(read_obj(data, filename), filename);
-  if (extension == ".stl") return to_scan(read_stl(data, filename), filename);
-  if (extension == ".ts") return read_gocad(data, filename);
-  if (extension == ".vtp") return read_vtp(filename);
+  case Scan_format::OBJ:
+    return to_scan(read_obj(data, filename), filename);
+  case Scan_format::STL:
+    return to_scan(read_stl(data, filename), filename);
+  case Scan_format::GOCAD:
+    return read_gocad(data, filename);
+  case Scan_format::VTP:
+    return read_vtp(filename);
+  case Scan_format::TEXT:
+    break;
+  }
   return read_text(data, filename);
 }
 

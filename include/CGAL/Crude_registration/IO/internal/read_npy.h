@@ -68,6 +68,21 @@ public:
     return scan;
   }
 
+  // After read(), for what writes the file anew: where a number of a point stands, and how.
+  std::size_t place(std::size_t i, std::size_t k) const
+  {
+    const std::size_t width = m_shape.back();
+    std::size_t at = i * width + k;
+    if (m_fortran) {
+      const std::size_t points = m_shape.size() == 3 ? m_shape[0] * m_shape[1] : m_shape[0];
+      if (m_shape.size() == 3) i = i / m_shape[1] + i % m_shape[1] * m_shape[0]; // row and column
+      at = k * points + i;
+    }
+    return m_body + at * m_size;
+  }
+  std::size_t size_of_number() const { return m_size; }
+  bool is_big_endian() const { return m_big_endian; }
+
 private:
   [[noreturn]] void fail(const std::string& what, std::size_t byte = 0) const
   {
@@ -136,14 +151,7 @@ private:
 
   double at(std::size_t i, std::size_t k) const
   {
-    const std::size_t width = m_shape.back();
-    std::size_t place = i * width + k;
-    if (m_fortran) {
-      const std::size_t points = m_shape.size() == 3 ? m_shape[0] * m_shape[1] : m_shape[0];
-      if (m_shape.size() == 3) i = i / m_shape[1] + i % m_shape[1] * m_shape[0]; // row and column
-      place = k * points + i;
-    }
-    const std::size_t byte = m_body + place * m_size;
+    const std::size_t byte = place(i, k);
     return m_size == 4 ? static_cast<double>(number_at<float>(m_data, byte, m_big_endian))
                        : number_at<double>(m_data, byte, m_big_endian);
   }

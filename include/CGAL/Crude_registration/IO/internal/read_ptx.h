@@ -58,6 +58,23 @@ public:
     return scan;
   }
 
+  // The text of the scan of this number, of which read() makes one.
+  std::string_view text_of(std::size_t number)
+  {
+    const char* const begin = m_cursor.next_line_begin();
+    if (number == 0) return std::string_view(begin, m_size);
+    std::size_t from = 0;
+    next_line("the number of columns");
+    for (std::size_t i = 1;; ++i) {
+      read_header();
+      for (std::size_t k = 0; k < m_columns * m_rows; ++k) next_sample(k);
+      const std::size_t end = static_cast<std::size_t>(m_cursor.next_line_begin() - begin);
+      if (i == number) return std::string_view(begin + from, end - from);
+      from = end;
+      next_line("the number of columns");
+    }
+  }
+
   // How many scans the file has; their samples are not read.
   std::size_t count()
   {

@@ -12,15 +12,17 @@
 #ifndef CGAL_CRUDE_REGISTRATION_IO_INTERNAL_UNPACK_GZIP_H
 #define CGAL_CRUDE_REGISTRATION_IO_INTERNAL_UNPACK_GZIP_H
 
-// Unpacks what gzip has packed.
+// Unpacks what gzip has packed, and packs it.
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
 
 #ifdef CGAL_CRUDE_REGISTRATION_USE_GZIP
+#include <boost/iostreams/close.hpp>
 #include <boost/iostreams/copy.hpp>
 #include <boost/iostreams/device/array.hpp>
 #include <boost/iostreams/device/back_inserter.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 
 #include <ios>
@@ -48,6 +50,22 @@ inline std::string unpack_gzip([[maybe_unused]] const std::string& data, const s
   }
 #else
   throw IO_error(file, "gzip is unpacked only where the program was built with Boost.Iostreams");
+#endif
+}
+
+// Packs as gzip does, without a time: the same data gives the same bytes.
+inline std::string pack_gzip([[maybe_unused]] const std::string& data, [[maybe_unused]] const std::string& file)
+{
+#ifdef CGAL_CRUDE_REGISTRATION_USE_GZIP
+  std::string packed;
+  boost::iostreams::filtering_ostream out;
+  out.push(boost::iostreams::gzip_compressor());
+  out.push(boost::iostreams::back_inserter(packed));
+  out.write(data.data(), static_cast<std::streamsize>(data.size()));
+  boost::iostreams::close(out);
+  return packed;
+#else
+  throw IO_error(file, "gzip packs only where the program was built with Boost.Iostreams");
 #endif
 }
 
