@@ -11,6 +11,7 @@
 #include "files.h"
 #include "json.h"
 #include "options.h"
+#include "report_pair.h"
 #include "sides.h"
 
 #include <CGAL/Crude_registration/judge_motion.h>
@@ -83,6 +84,25 @@ int exit_code_of(CR::Motion_status status)
   return EXIT_NOT_REGISTERED;
 }
 
+// The given motion and what refinement makes of it, to look at, and the rivals.
+void write_page(const std::string& file, const std::array<Scan_of_a_side, 2>& sides,
+                const std::array<const Scan*, 2>& scans, const Transformation& motion,
+                const CR::Motion_judgement<Kernel>& judgement)
+{
+  const auto& refined = judgement.refined();
+  Pair_report report{"judge", {&sides[0], &sides[1]}, scans, verdict_of(judgement), numbers_of(refined, scans)};
+  report.numbers.insert(report.numbers.begin(),
+                        {"Displacement", number_text(judgement.displacement()) + " sampling distances",
+                         "How far the motion is from what refinement makes of it, root mean square where the scans "
+                         "overlap. The numbers that follow are those of the refined motion."});
+  report.have_common_frame = true;
+  report.poses.push_back({"Given", "The motion that was given.", std::nullopt, motion});
+  if (judgement.status() != CR::WRONG_MOTION)
+    report.poses.push_back({"Refined", "What refinement makes of it.", refined.confidence(), refined.transformation()});
+  add_rivals(refined, report.poses);
+  write_pair_report(file, report);
+}
+
 } // namespace
 
 int run_judge(const std::vector<std::string>& arguments)
@@ -91,6 +111,8 @@ int run_judge(const std::vector<std::string>& arguments)
   auto add = options.add_options();
   add("motion", po::value<std::string>()->required(),
       "file of the motion that maps SOURCE onto TARGET: the rows of a 3 x 4 or 4 x 4 matrix, or the JSON of register");
+  add("report", po::value<std::string>(),
+      "file (HTML) for a page to look at the scans as the motion moves them; it needs a browser and nothing else");
   add_options_of_sides(options);
   add("json", "print JSON, the same bytes for the same scans");
   const auto given = parse("judge SOURCE TARGET --motion FILE [OPTION...]",
@@ -102,6 +124,8 @@ int run_judge(const std::vector<std::string>& arguments)
   std::array<Scan_of_a_side, 2> sides = sides_of(map);
   const std::string source = map["SOURCE"].as<std::string>(), target = map["TARGET"].as<std::string>(),
                     file = map["motion"].as<std::string>();
+  const auto page = value_of<std::string>(map, "report");
+  if (page) check_output(*page);
   const Transformation motion = read_motion(file);
   const Scan source_scan = scan_of(sides[0]), target_scan = scan_of(sides[1]);
   const auto judged = [&] {
@@ -113,6 +137,7 @@ int run_judge(const std::vector<std::string>& arguments)
   };
   const CR::Motion_judgement<Kernel> judgement = judged();
   const auto& refined = judgement.refined();
+  if (page) write_page(*page, sides, {&source_scan, &target_scan}, motion, judgement);
   std::ostringstream status;
   status << judgement.status();
   if (map.count("json") > 0) {

@@ -21,6 +21,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #ifdef CGAL_CRUDE_REGISTRATION_USE_PNG
@@ -257,18 +258,25 @@ inline void set_apart(std::vector<Surface>& surfaces, const View& view)
   }
 }
 
+constexpr bool can_write_pictures()
+{
+#ifdef CGAL_CRUDE_REGISTRATION_USE_PNG
+  return true;
+#else
+  return false;
+#endif
+}
+
 // Told before the work: that there is no libpng, or no folder to write to.
 inline void check_picture(const std::optional<std::string>& file)
 {
   if (!file) return;
-#ifndef CGAL_CRUDE_REGISTRATION_USE_PNG
-  throw Usage_error("--picture needs libpng, without which the program was built");
-#endif
+  if (!can_write_pictures()) throw Usage_error("--picture needs libpng, without which the program was built");
   check_output(*file);
 }
 
-// Draws the surfaces, which lie in a common frame or, where there is none, are set apart.
-inline void write_picture(const std::string& file, std::vector<Surface> surfaces, bool have_common_frame)
+// The surfaces, which lie in a common frame or, where there is none, are set apart, as the bytes of a PNG file.
+inline std::string picture_of(std::vector<Surface> surfaces, bool have_common_frame)
 {
   for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].colour = colour_of_scan(i);
   const View view = view_of(surfaces);
@@ -276,7 +284,13 @@ inline void write_picture(const std::string& file, std::vector<Surface> surfaces
   constexpr int width = 1000, height = 800;
   Picture picture(width, height);
   picture.draw(surfaces, view);
-  CR::write_file(file, [&](std::ostream& out) { out << picture.png(); });
+  return picture.png();
+}
+
+inline void write_picture(const std::string& file, std::vector<Surface> surfaces, bool have_common_frame)
+{
+  const std::string png = picture_of(std::move(surfaces), have_common_frame);
+  CR::write_file(file, [&](std::ostream& out) { out << png; });
 }
 
 #endif // CRUDE_REGISTER_PICTURE_H
