@@ -24,7 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -58,6 +58,19 @@ inline std::size_t fair_share(std::vector<std::size_t> sizes, std::size_t most)
   return (std::max)(share, sizes.empty() ? 0 : sizes.back());
 }
 
+// The same points in an order of which each beginning is spread over all of them: steps of the golden section.
+inline void spread_order(std::vector<Point>& points)
+{
+  const std::size_t n = points.size();
+  constexpr double golden_section = 0.6180339887498949; // (sqrt(5) - 1) / 2
+  std::size_t step = std::size_t(golden_section * double(n)) + 1;
+  while (std::gcd(step, n) > 1) ++step; // so that all are met
+  std::vector<Point> spread;
+  spread.reserve(n);
+  for (std::size_t i = 0, at = 0; i < n; ++i, at = (at + step) % n) spread.push_back(points[at]);
+  points = std::move(spread);
+}
+
 // The points that are shown of scans that have bytes for `poses` poses: of each scan evenly from the first to the last.
 inline void thin_out(std::vector<Report_scan>& scans, std::size_t poses)
 {
@@ -67,9 +80,11 @@ inline void thin_out(std::vector<Report_scan>& scans, std::size_t poses)
       fair_share(sizes, (std::min)(most_points, most_bytes / (bytes_of_place + bytes_of_normal + poses)));
   for (Report_scan& s : scans) {
     s.samples = s.points.size();
-    if (s.samples <= share) continue;
-    for (std::size_t i = 0; i < share; ++i) s.points[i] = s.points[i * s.samples / share];
-    s.points.resize(share);
+    if (s.samples > share) {
+      for (std::size_t i = 0; i < share; ++i) s.points[i] = s.points[i * s.samples / share];
+      s.points.resize(share);
+    }
+    spread_order(s.points);
   }
 }
 

@@ -145,7 +145,7 @@ function show_assembly(show_only) {
     by_id("pairs").replaceChildren(make("table", {}, head("source", "target", "", "confidence", "overlap", "residual", "why", ""),
       make("tbody", {}, ...edges.map((e) => make("tr", {}, make("td", {}, scans[e.source].name), make("td", {}, scans[e.target].name),
         make("td", {}, words[e.status]), number_cell(percent(e.confidence)), number_cell(percent(e.overlap)), number_cell(digits(e.residual, 3)),
-        make("td", {}, e.reason), make("td", {}, may_look(e.source, e.target)))))));
+        make("td", { class: "why" }, e.reason), make("td", {}, may_look(e.source, e.target)))))));
     state.pairs = edges.length;
   };
   by_id("pair_filter").addEventListener("change", show_pairs);
@@ -159,21 +159,22 @@ function show_graph() {
   const place = [], dot_radius = 6;
   let x = 0, y = 0, row = 0, width = 0;
   for (const group of groups) {
-    const radius = group.length === 1 ? 0 : Math.max(40, (group.length * 30) / (2 * Math.PI)), half = radius + 50;
-    if (x > 0 && x + 2 * half > 640) {
+    const radius = group.length === 1 ? 0 : Math.max(40, (group.length * 26) / (2 * Math.PI));
+    const half = radius + (radius ? 112 : 60), half_height = radius + 34;
+    if (x > 0 && x + 2 * half > 620) {
       x = 0;
       y += row;
       row = 0;
     }
     group.forEach((i, k) => {
       const angle = (2 * Math.PI * k) / group.length - Math.PI / 2;
-      place[i] = [x + half + radius * Math.cos(angle), y + half + radius * Math.sin(angle), angle, radius];
+      place[i] = [x + half + radius * Math.cos(angle), y + half_height + radius * Math.sin(angle), angle, radius];
     });
     x += 2 * half;
-    row = Math.max(row, 2 * half);
+    row = Math.max(row, 2 * half_height);
     width = Math.max(width, x);
   }
-  const svg = make("svg", { viewBox: "0 0 " + width + " " + (y + row), role: "img", "aria-label": "Graph of the pairs", style: "max-height:520px" });
+  const svg = make("svg", { viewBox: "0 0 " + width + " " + (y + row), role: "img", "aria-label": "Graph of the pairs", style: "max-width:" + width + "px" });
   const looks = { used: ["var(--text)", ""], dropped: ["var(--bad)", "5 3"], not_connecting: ["var(--dim)", "3 3"] };
   state.graph_edges = 0;
   for (const e of report.edges) {

@@ -24,6 +24,7 @@ const state = {
   camera: null,
   drawn_points: 0,
   frames: 0,
+  complete: false, // all that is shown is drawn, not a part of its points
   first_frame_ms: null,
   section: { axis: "x", position: 0.5, thickness: 2, points: 0, zoom: 1 },
   histogram: null,
@@ -75,8 +76,9 @@ const scans = report.scans.map((data, i) => {
     places,
     normals: bytes_of("normals_" + i),
     count: places.length / 3,
-    // From places, as numbers from 0 to 1, to the frame of the scan's file.
-    box: [0, 1, 2].map((k) => [0, 1, 2, 3].map((j) => (j === k ? data.size[k] : j === 3 ? data.low[k] : 0))),
+    // From places, as numbers from 0 to 1, to the frame of the scan's file; of a flat box not singular: all are 0 there.
+    box: [0, 1, 2].map((k) => [0, 1, 2, 3].map((j) =>
+      (j === k ? data.size[k] || Math.max(...data.size) || 1 : j === 3 ? data.low[k] : 0))),
     met: report.poses.map((pose, k) => bytes_of("met_" + k + "_" + i)),
     css: "rgb(" + data.colour.join(",") + ")",
   };

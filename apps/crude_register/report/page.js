@@ -18,12 +18,13 @@ function update_all() {
 // Where the scans lie.
 const has_poses = report.poses.length > 0;
 const layouts = [
-  ["together", is_pair ? "after: as the motion moves them" : "after: as the model has them"],
+  ["together", is_pair ? "after: as the motion that is chosen moves them" : "after: as the model has them"],
   ["files", "before: as they are in their files"],
   ["apart", "before: side by side"],
 ].filter(([value]) => value !== "together" || has_poses);
 function choose_layout(layout) {
   state.layout = layout;
+  document.querySelector('input[name="layout"][value="' + layout + '"]').checked = true;
   if (the_view) the_view.reset();
   update_all();
 }
@@ -93,7 +94,9 @@ function choose_pose(k) {
   mark_pose();
   the_section.set_range();
   if (state.picked && the_view) the_view.unmark();
-  update_all();
+  // To see what it does, but where lines show that.
+  if (state.layout !== "together" && !state.correspondences) choose_layout("together");
+  else update_all();
 }
 show_poses(choose_pose);
 by_id("previous_pose").addEventListener("click", () => choose_pose(state.pose - 1));

@@ -140,7 +140,7 @@ function corresponding_points() {
 
 function make_view() {
   const canvas = by_id("view");
-  const options = { antialias: true, preserveDrawingBuffer: true, alpha: false };
+  const options = { antialias: false, preserveDrawingBuffer: true, alpha: false };
   const context = window.THREE && canvas.getContext("webgl", options);
   if (!context) return null;
   const fov = 30, tangent = Math.tan((fov * Math.PI) / 360);
@@ -150,6 +150,9 @@ function make_view() {
   const view = { turn: new THREE.Quaternion(), target: new THREE.Vector3(), distance: 3 };
   let to_scene = { centre: [0, 0, 0], scale: 1 }; // scene from the common frame
   let is_asked_for = false, marked = null;
+  // Where all points take too long to follow the hand, a part of them is drawn until it rests; and at first.
+  const first_points = 150000, quick_ms = 80, rest_ms = 250;
+  let points_a_ms = first_points / quick_ms, is_moving = true, resting = null;
 
   canvas.addEventListener("webglcontextlost", (e) => {
     e.preventDefault();
@@ -219,7 +222,7 @@ function make_view() {
       object.turn = new THREE.Matrix4().set(...motion[0], ...motion[1], ...motion[2], 0, 0, 0, 1);
       object.geometry.setAttribute("met", scan.met_attributes[state.pose] || scan.no_met_attribute);
       uniforms.colour_by.value = by;
-      uniforms.size.value = 1.5 * state.point_size * (scan.shown_spacing || report.spacing) * s;
+      object.size = 1.5 * state.point_size * (scan.shown_spacing || report.spacing) * s;
       uniforms.plane.value = n;
       uniforms.cut.value = state.cut && state.layout === "together";
     });
@@ -280,13 +283,27 @@ function make_view() {
     renderer.setClearColor(new THREE.Color(style_of("--view")));
     aim();
     const turn = new THREE.Matrix4();
+    const share = is_moving ? Math.min(1, (points_a_ms * quick_ms) / Math.max(1, state.drawn_points)) : 1;
     for (const object of objects) {
       if (!object.visible) continue;
+      object.geometry.setDrawRange(0, Math.ceil(share * object.geometry.attributes.position.count));
+      object.material.uniforms.size.value = object.size / Math.sqrt(share);
       turn.multiplyMatrices(camera.matrixWorldInverse, object.turn);
       object.material.uniforms.turn.value.setFromMatrix4(turn);
       object.material.uniforms.pixels.value = canvas.height / (2 * tangent);
     }
+    const begin = performance.now();
     renderer.render(scene, camera);
+    if (share === 1 || state.frames === 0) {
+      context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
+      if (state.frames > 0) points_a_ms = state.drawn_points / Math.max(1, performance.now() - begin);
+    }
+    if (++state.frames === 1) state.first_frame_ms = performance.now();
+    state.complete = share === 1;
+    if (!state.complete) {
+      clearTimeout(resting);
+      resting = setTimeout(() => ask(true), rest_ms);
+    }
     const mark = by_id("pick_mark");
     mark.hidden = !marked;
     if (marked) {
@@ -296,14 +313,11 @@ function make_view() {
       mark.style.top = y + "px";
     }
     state.camera = { turn: view.turn.toArray(), target: view.target.toArray(), distance: view.distance, ratio };
-    if (++state.frames === 1) {
-      const pixel = new Uint8Array(4);
-      context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, pixel); // waits until it is drawn
-      state.first_frame_ms = performance.now();
-    }
   }
 
-  function ask() {
+  function ask(is_at_rest = false) {
+    is_moving = !is_at_rest;
+    state.complete = false;
     if (is_asked_for) return;
     is_asked_for = true;
     requestAnimationFrame(draw);
@@ -390,7 +404,7 @@ function make_view() {
   };
   listen_to_pointers(canvas, handle);
   listen_to_keys(canvas, handle, () => reset());
-  new ResizeObserver(ask).observe(canvas);
+  new ResizeObserver(() => ask()).observe(canvas);
   return {
     update,
     reset,
@@ -403,55 +417,4 @@ function make_view() {
     towards: () => new THREE.Vector3(0, 0, 1).applyQuaternion(view.turn).toArray(),
     right: () => new THREE.Vector3(1, 0, 0).applyQuaternion(view.turn).toArray(),
   };
-}
-
-function show_picked(best) {
-  const text = by_id("picked");
-  if (!best) {
-    state.picked = null;
-    text.textContent = "";
-    return;
-  }
-  const scan = scans[best.scan], own = point_of(scan, best.index), common = apply(motion_of(scan), own);
-  const met = met_of(scan), m = met ? meeting_of(met[best.index]) : { step: null, in_free_space: false };
-  const spacings = m.step === null ? null : m.step * spacings_of_step;
-  const place = (p) => "(" + p.map((x) => digits(x, 6)).join(", ") + ")";
-  const limit = report.reach_in_spacings;
-  let distance = "no surface of " + (is_pair ? "the other scan" : "another scan") + " near";
-  if (spacings !== null) {
-    const is_far = Math.abs(m.step) === report.steps_of_reach;
-    distance = (is_far ? limit + " or more" : digits(Math.abs(spacings), 2)) + " sampling distances (" +
-      (is_far ? "from " : "") + digits(Math.abs(spacings) * report.spacing, 3) + ") " +
-      (spacings < 0 ? "behind" : spacings > 0 ? "in front of" : "from") + " the other surface";
-  }
-  state.picked = { scan: best.scan, index: best.index, place: own, common, spacings, in_free_space: m.in_free_space };
-  text.replaceChildren(make("span", { class: "swatch", style: "background:" + scan.css }),
-    " " + scan.name + ", " + place(own) + " in its file" +
-    (report.poses.length ? ", " + place(common) + " in the common frame" : "") + ": " + distance +
-    (m.in_free_space ? "; in free space" : "") + ".");
-}
-
-function show_legend() {
-  const legend = by_id("legend");
-  if (state.colour === "scan") {
-    const some = shown_scans();
-    legend.replaceChildren(...some.slice(0, 12).map((scan) =>
-      make("span", {}, make("span", { class: "swatch", style: "background:" + scan.css }), " " + (scan.role ? scan.role + ": " : "") + scan.name + "  ")),
-      some.length > 12 ? "and " + (some.length - 12) + " more" : "");
-  } else if (state.colour === "distance") {
-    const { behind, on, before, none } = colours_of_distance;
-    legend.replaceChildren(
-      make("div", { class: "ramp", style: "background:linear-gradient(to right," + [behind, on, before].map(css_of).join(",") + ")" }),
-      make("div", { class: "ramp_ends" }, make("span", {}, report.reach_in_spacings + " sampling distances behind"), make("span", {}, "on the other surface"),
-        make("span", {}, report.reach_in_spacings + " in front")),
-      make("span", {}, make("span", { class: "swatch", style: "background:" + css_of(none) }), " no other surface near"));
-  } else {
-    const blind = is_pair ? scans.filter((scan) => !scan.has_free_space) : [];
-    const unseen = scans.filter((scan) => !scan.has_free_space).length;
-    let note = "";
-    if (blind.length) note = " What the sensor of " + blind.map((scan) => "the " + scan.role).join(" and of ") + " saw to be empty is not known.";
-    else if (unseen) note = " Of " + unseen + " scans it is not known what their sensors saw to be empty.";
-    legend.replaceChildren(make("span", {}, make("span", { class: "swatch", style: "background:" + css_of(colour_of_violation) }),
-      " where another scan's sensor saw that there is nothing, by more than " + report.free_space_depth_in_spacings + " sampling distances." + note));
-  }
 }
