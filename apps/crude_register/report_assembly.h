@@ -38,6 +38,7 @@ inline Report_verdict verdict_of(const Assembly& result)
   }
   const std::string interrupted =
       result.is_interrupted() ? " The run was ended before it was done: this is what had been found." : "";
+  if (scans == 1) return {"good", "There is one scan", "It is the whole model." + interrupted};
   if (components <= 1)
     return {result.is_interrupted() ? "doubtful" : "good", "All scans are connected",
             "The " + std::to_string(scans) + " scans lie in one frame." + interrupted};

@@ -66,6 +66,12 @@ function digits(x, n = 4) {
   return Number(x.toPrecision(n)).toString();
 }
 
+// A coordinate, to a hundredth of the sampling distance, however far away the origin is.
+function coordinate(x) {
+  const decimals = report.spacing > 0 ? Math.ceil(2 - Math.log10(report.spacing)) : 6;
+  return x.toFixed(Math.min(15, Math.max(0, decimals)));
+}
+
 const most_of_places = 65535;
 
 const scans = report.scans.map((data, i) => {

@@ -11,7 +11,7 @@ function show_picked(best) {
   const scan = scans[best.scan], own = point_of(scan, best.index), common = apply(motion_of(scan), own);
   const met = met_of(scan), m = met ? meeting_of(met[best.index]) : { step: null, in_free_space: false };
   const spacings = m.step === null ? null : m.step * spacings_of_step;
-  const place = (p) => "(" + p.map((x) => digits(x, 6)).join(", ") + ")";
+  const place = (p) => "(" + p.map(coordinate).join(", ") + ")";
   const limit = report.reach_in_spacings;
   let distance = "no surface of " + (is_pair ? "the other scan" : "another scan") + " near";
   if (spacings !== null) {

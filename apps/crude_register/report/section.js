@@ -76,7 +76,7 @@ function make_section() {
     draw_bar(context, width, height);
     state.section = { ...state.section, points: number, zoom, value: at };
     by_id("section_text").textContent = number.toLocaleString("en") + " points within " + digits(thickness() / 2, 3) +
-      " of the plane " + (state.section.axis === "view" ? "across the view" : state.section.axis + " = " + digits(at)) +
+      " of the plane " + (state.section.axis === "view" ? "across the view" : state.section.axis + " = " + coordinate(at)) +
       ", " + digits(thickness(), 3) + " thick (" + state.section.thickness + " sampling distances).";
   }
 

@@ -22,8 +22,8 @@ function run(code, ...words) {
   return answer.stdout;
 }
 
-// Reports of two scans of a body, of a motion that is some sampling distances off, of two planes, of two bodies, and of
-// an assembly that leaves out a scan of another body.
+// Reports of two scans of a body, of a motion that is some sampling distances off, of two planes, of two bodies, of a run
+// that had no time, and of an assembly that leaves out a scan of another body.
 function make_reports() {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
@@ -31,7 +31,7 @@ function make_reports() {
   run(0, "simulate", "--output", "other", "--scans", "2", "--samples", "110", "--seed", "5");
   const [source, target] = [0, 1].map((i) => join("body", `scan_${i}.ply`)), other = join("other", "scan_1.ply");
   const answer = JSON.parse(run(0, "register", source, target, "--report", "pair.html", "--json"));
-  const spacing = answer.residual > 0 ? 0.02 : 0;
+  const spacing = 2.5 / 130; // about: the body is as large, and the grid has so many columns
   writeFileSync(join(folder, "motion.txt"), answer.target_from_source.map((row) => [...row.slice(0, 3), row[3] + 2 * spacing].join(" ")).join("\n"));
   run(2, "judge", source, target, "--motion", "motion.txt", "--report", "judged.html");
   for (const [name, width, height] of [["plane_0.xyz", 40, 30], ["plane_1.xyz", 30, 40]]) {
@@ -41,6 +41,7 @@ function make_reports() {
   }
   run(2, "register", "plane_0.xyz", "plane_1.xyz", "--report", "plane.html");
   run(3, "register", source, other, "--report", "apart.html");
+  run(3, "register", source, target, "--time-budget", "1e-9", "--report", "early.html");
   run(0, "assemble", ...[0, 1, 2, 3].map((i) => join("body", `scan_${i}.ply`)), other, "--report", "assembly.html");
 }
 
@@ -369,6 +370,11 @@ try {
   page = await opened(browser, "apart.html", narrow);
   check((await state(page, ".layout")) === "apart", page.name + ": scans that are not registered are not side by side");
   check((await page.value("document.querySelector('.verdict').classList.contains('bad')")), page.name + ": the verdict is not bad");
+  await closed(page);
+
+  // Ended before there was anything to tell of them: the scans alone.
+  page = await opened(browser, "early.html", narrow);
+  check(await page.value("document.getElementById('pose_part').hidden"), page.name + ": there are motions of scans that were not prepared");
   await closed(page);
 
   for (const size of [wide, { ...narrow, dark: true }]) {
