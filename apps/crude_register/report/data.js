@@ -88,8 +88,9 @@ const scans = report.scans.map((data, i) => {
     met: report.poses.map((pose, k) => bytes_of("met_" + k + "_" + i)),
     css: "rgb(" + data.colour.join(",") + ")",
   };
-  // The distance of the points that are shown, about.
-  scan.shown_spacing = scan.spacing * Math.sqrt(Math.max(1, scan.samples / Math.max(1, scan.count)));
+  // The distance of the points that are shown, about; of a scan that was not prepared, as if they filled a square.
+  const count = Math.max(1, scan.count);
+  scan.shown_spacing = scan.spacing ? scan.spacing * Math.sqrt(scan.samples / count) : Math.max(...data.size) / Math.sqrt(count);
   return scan;
 });
 

@@ -222,7 +222,7 @@ function make_view() {
       object.turn = new THREE.Matrix4().set(...motion[0], ...motion[1], ...motion[2], 0, 0, 0, 1);
       object.geometry.setAttribute("met", scan.met_attributes[state.pose] || scan.no_met_attribute);
       uniforms.colour_by.value = by;
-      object.size = 1.5 * state.point_size * (scan.shown_spacing || report.spacing) * s;
+      object.size = 1.5 * state.point_size * scan.shown_spacing * s;
       uniforms.plane.value = n;
       uniforms.cut.value = state.cut && state.layout === "together";
     });
