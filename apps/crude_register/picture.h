@@ -105,7 +105,7 @@ public:
     image.width = png_uint_32(m_width);
     image.height = png_uint_32(m_height);
     image.format = PNG_FORMAT_RGB;
-    image.flags = PNG_IMAGE_FLAG_FAST; // half the time of a picture, for a file a little larger
+    image.flags = PNG_IMAGE_FLAG_FAST; // for a file a little larger
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     file.resize(size);
     if (png_image_write_to_memory(&image, file.data(), &size, 0, bytes.data(), 0, nullptr) == 0) size = 0;
