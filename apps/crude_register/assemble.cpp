@@ -15,6 +15,7 @@
 #include "options.h"
 #include "picture.h"
 #include "progress.h"
+#include "report_assembly.h"
 #include "run_limits.h"
 #include "scan_arguments.h"
 #include "surfaces.h"
@@ -83,14 +84,6 @@ std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::
   return scans;
 }
 
-template <class Value>
-std::string text_of(const Value& value)
-{
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 Json to_json(const Result& result, const std::vector<std::string>& files, const std::vector<std::string>& notes,
              bool with_times)
 {
@@ -111,9 +104,9 @@ Json to_json(const Result& result, const std::vector<std::string>& files, const 
   for (const auto& e : result.edges())
     edges.push_back({{"source", e.source},
                      {"target", e.target},
-                     {"status", text_of(e.status)},
+                     {"status", word_of(e.status)},
                      {"reason", e.reason},
-                     {"registration", text_of(e.registration)},
+                     {"registration", word_of(e.registration)},
                      {"confidence", e.confidence},
                      {"overlap", e.overlap},
                      {"residual", e.residual}});
@@ -169,6 +162,9 @@ int run_assemble(const std::vector<std::string>& arguments)
       "formats, with all that is in them (colours, intensities, texture, faces, comments), normals turned");
   add("table", po::value<std::string>(), "file for the overlaps and the residuals of all pairs, as text");
   add("picture", po::value<std::string>(), "file (PNG) for a picture of the largest component, a colour a scan");
+  add("report", po::value<std::string>(),
+      "file (HTML) for a page to look at the model in, with the graph, the overlaps, the residuals and what was left "
+      "out; it needs a browser and nothing else");
   add("viewpoint", po::value<std::string>(),
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
   add("graph", po::value<std::string>(), "file for the graph of the pairs, for GraphViz");
@@ -195,7 +191,7 @@ int run_assemble(const std::vector<std::string>& arguments)
   limit_threads(map);
   const double time_budget = time_budget_of(map);
 
-  for (const char* option : {"poses", "output", "table", "graph"})
+  for (const char* option : {"poses", "output", "table", "graph", "report"})
     if (const auto file = value_of<std::string>(map, option)) check_output(*file);
   const auto picture = value_of<std::string>(map, "picture");
   check_picture(picture);
@@ -236,12 +232,18 @@ int run_assemble(const std::vector<std::string>& arguments)
     const std::string note = apply(files[i], applied[i], result.pose(i), scans[i].spacing());
     if (!note.empty()) notes.push_back(note);
   }
+  const auto surface = [&](std::size_t i) {
+    const Scan_file contents = read_scan(map, files[i]);
+    return surface_to_show(contents, viewpoint_of(contents, viewpoint), &scans[i]);
+  };
+  if (const auto file = value_of<std::string>(map, "report"))
+    write_assembly_report(
+        *file, result, scans, names, [&](std::size_t i) { return points_of(read_scan(map, files[i])); }, surface);
   if (picture) {
     std::vector<Surface> surfaces;
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (result.component(i) != 0) continue;
-      const Scan_file contents = read_scan(map, files[i]);
-      surfaces.push_back(surface_to_show(contents, viewpoint_of(contents, viewpoint), &scans[i]));
+      surfaces.push_back(surface(i));
       move(surfaces.back(), result.pose(i));
     }
     write_picture(*picture, std::move(surfaces), true);

@@ -13,6 +13,7 @@
 #include "json.h"
 #include "options.h"
 #include "progress.h"
+#include "report_pair.h"
 #include "sides.h"
 
 #include <CGAL/Crude_registration/judge_motion.h>
@@ -87,6 +88,25 @@ int exit_code_of(CR::Motion_status status)
   return EXIT_NOT_REGISTERED;
 }
 
+// The given motion and what refinement makes of it, to look at, and the rivals.
+void write_page(const std::string& file, const std::array<Scan_of_a_side, 2>& sides,
+                const std::array<const Scan*, 2>& scans, const Transformation& motion,
+                const CR::Motion_judgement<Kernel>& judgement)
+{
+  const auto& refined = judgement.refined();
+  Pair_report report{"judge", {&sides[0], &sides[1]}, scans, verdict_of(judgement), numbers_of(refined, scans)};
+  report.numbers.insert(report.numbers.begin(),
+                        {"Displacement", number_text(judgement.displacement()) + " sampling distances",
+                         "How far the motion is from what refinement makes of it, root mean square where the scans "
+                         "overlap. The numbers that follow are those of the refined motion."});
+  report.have_common_frame = true;
+  report.poses.push_back({"Given", "The motion that was given.", std::nullopt, motion});
+  if (judgement.status() != CR::WRONG_MOTION)
+    report.poses.push_back({"Refined", "What refinement makes of it.", refined.confidence(), refined.transformation()});
+  add_rivals(refined, report.poses);
+  write_pair_report(file, report);
+}
+
 } // namespace
 
 int run_judge(const std::vector<std::string>& arguments)
@@ -97,6 +117,8 @@ int run_judge(const std::vector<std::string>& arguments)
       "file of the motion that maps SOURCE onto TARGET: the rows of a 3 x 4 or 4 x 4 matrix, or the JSON of register");
   add("apply", po::value<std::string>(),
       (apply_help + std::string("; by what refinement makes of the motion, written unless it is wrong")).c_str());
+  add("report", po::value<std::string>(),
+      "file (HTML) for a page to look at the scans as the motion moves them; it needs a browser and nothing else");
   add_options_of_sides(options);
   add("json", "print JSON, the same bytes for the same scans");
   const Command command = {
@@ -112,6 +134,8 @@ int run_judge(const std::vector<std::string>& arguments)
   const po::variables_map& map = *given;
   std::array<Scan_of_a_side, 2> sides = sides_of(map);
   const std::string source = sides[0].file, target = sides[1].file, file = map["motion"].as<std::string>();
+  const auto page = value_of<std::string>(map, "report");
+  if (page) check_output(*page);
   const Transformation motion = read_motion(file);
   const auto applied = apply_option(map, source);
   watch_for_interruption();
@@ -131,6 +155,7 @@ int run_judge(const std::vector<std::string>& arguments)
   progress.clear();
   if (is_interrupted()) throw std::runtime_error("interrupted before the motion was judged");
   const auto& refined = judgement.refined();
+  if (page) write_page(*page, sides, {&source_scan, &target_scan}, motion, judgement);
   std::ostringstream status;
   status << judgement.status();
   std::string note;

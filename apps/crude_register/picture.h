@@ -21,6 +21,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #ifdef CGAL_CRUDE_REGISTRATION_USE_PNG
@@ -69,8 +70,8 @@ public:
   // Draws the surfaces as large as they fit.
   void draw(const std::vector<Surface>& surfaces, const View& view)
   {
-    m_colours.assign(samples(), {1, 1, 1});
-    m_depths.assign(samples(), -(std::numeric_limits<double>::max)());
+    m_colours.assign(samples(), {255, 255, 255});
+    m_depths.assign(samples(), -(std::numeric_limits<float>::max)());
     frame(surfaces, view);
     for (const Surface& s : surfaces) {
       if (s.triangles.empty()) draw_points(s);
@@ -84,10 +85,11 @@ public:
     for (int y = 0; y < m_height; ++y)
       for (int x = 0; x < m_width; ++x)
         for (std::size_t c = 0; c < 3; ++c) {
-          double sum = 0;
-          for (int k = 0; k < fineness * fineness; ++k)
+          constexpr int number = fineness * fineness;
+          int sum = number / 2; // rounded
+          for (int k = 0; k < number; ++k)
             sum += m_colours[at(fineness * x + k % fineness, fineness * y + k / fineness)][c];
-          bytes.push_back(std::uint8_t(std::lround(255 * sum / (fineness * fineness))));
+          bytes.push_back(std::uint8_t(sum / number));
         }
     return bytes;
   }
@@ -103,6 +105,7 @@ public:
     image.width = png_uint_32(m_width);
     image.height = png_uint_32(m_height);
     image.format = PNG_FORMAT_RGB;
+    image.flags = PNG_IMAGE_FLAG_FAST; // for a file a little larger
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     file.resize(size);
     if (png_image_write_to_memory(&image, file.data(), &size, 0, bytes.data(), 0, nullptr) == 0) size = 0;
@@ -114,7 +117,7 @@ public:
 private:
   static constexpr int fineness = 2; // so many samples a pixel, each way
 
-  using Rgb = std::array<double, 3>;
+  using Rgb = std::array<std::uint8_t, 3>;
   struct Place
   {
     double x, y, depth; // in samples from the left and from the top; towards the viewer
@@ -161,8 +164,8 @@ private:
   {
     if (x < 0 || y < 0 || x >= fineness * m_width || y >= fineness * m_height) return;
     const std::size_t i = at(x, y);
-    if (depth <= m_depths[i]) return;
-    m_depths[i] = depth;
+    if (float(depth) <= m_depths[i]) return;
+    m_depths[i] = float(depth);
     m_colours[i] = colour;
   }
 
@@ -177,7 +180,7 @@ private:
       const double cosine = normal * lamp / length;
       light = front >= 0 ? 0.3 + 0.75 * (std::max)(cosine, 0.) : 0.2 + 0.35 * (std::max)(-cosine, 0.);
     }
-    const auto part = [light](int c) { return (std::min)(light * c / 255, 1.); };
+    const auto part = [light](int c) { return std::uint8_t(std::lround((std::min)(light * c, 255.))); };
     return {part(s.colour.red), part(s.colour.green), part(s.colour.blue)};
   }
 
@@ -211,6 +214,7 @@ private:
       // Smaller than the distance of samples: one of them stands for it.
       put(int(std::floor(a.x)), int(std::floor(a.y)), a.depth, colour);
       if (!(std::abs(area) > 0)) continue;
+      const double inverse = 1 / area;
       const int width = fineness * m_width, height = fineness * m_height;
       const int x0 = (std::max)(0, int(std::floor((std::min)({a.x, b.x, c.x})))),
                 x1 = (std::min)(width - 1, int(std::ceil((std::max)({a.x, b.x, c.x})))),
@@ -219,8 +223,8 @@ private:
       for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x) {
           const double px = x + 0.5, py = y + 0.5;
-          const double u = ((px - a.x) * (c.y - a.y) - (c.x - a.x) * (py - a.y)) / area,
-                       v = ((b.x - a.x) * (py - a.y) - (px - a.x) * (b.y - a.y)) / area;
+          const double u = ((px - a.x) * (c.y - a.y) - (c.x - a.x) * (py - a.y)) * inverse,
+                       v = ((b.x - a.x) * (py - a.y) - (px - a.x) * (b.y - a.y)) * inverse;
           if (u < 0 || v < 0 || u + v > 1) continue;
           put(x, y, a.depth + u * (b.depth - a.depth) + v * (c.depth - a.depth), colour);
         }
@@ -231,7 +235,7 @@ private:
   View m_view;
   double m_scale = 1, m_x = 0, m_y = 0;
   std::vector<Rgb> m_colours;
-  std::vector<double> m_depths;
+  std::vector<float> m_depths;
 };
 
 // Side by side, where no common frame is known: moves each behind the one before it, to the right.
@@ -257,18 +261,25 @@ inline void set_apart(std::vector<Surface>& surfaces, const View& view)
   }
 }
 
+constexpr bool can_write_pictures()
+{
+#ifdef CGAL_CRUDE_REGISTRATION_USE_PNG
+  return true;
+#else
+  return false;
+#endif
+}
+
 // Told before the work: that there is no libpng, or no folder to write to.
 inline void check_picture(const std::optional<std::string>& file)
 {
   if (!file) return;
-#ifndef CGAL_CRUDE_REGISTRATION_USE_PNG
-  throw Usage_error("--picture needs libpng, without which the program was built");
-#endif
+  if (!can_write_pictures()) throw Usage_error("--picture needs libpng, without which the program was built");
   check_output(*file);
 }
 
-// Draws the surfaces, which lie in a common frame or, where there is none, are set apart.
-inline void write_picture(const std::string& file, std::vector<Surface> surfaces, bool have_common_frame)
+// The surfaces, which lie in a common frame or, where there is none, are set apart, as the bytes of a PNG file.
+inline std::string picture_of(std::vector<Surface> surfaces, bool have_common_frame)
 {
   for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].colour = colour_of_scan(i);
   const View view = view_of(surfaces);
@@ -276,7 +287,13 @@ inline void write_picture(const std::string& file, std::vector<Surface> surfaces
   constexpr int width = 1000, height = 800;
   Picture picture(width, height);
   picture.draw(surfaces, view);
-  CR::write_file(file, [&](std::ostream& out) { out << picture.png(); });
+  return picture.png();
+}
+
+inline void write_picture(const std::string& file, std::vector<Surface> surfaces, bool have_common_frame)
+{
+  const std::string png = picture_of(std::move(surfaces), have_common_frame);
+  CR::write_file(file, [&](std::ostream& out) { out << png; });
 }
 
 #endif // CRUDE_REGISTER_PICTURE_H

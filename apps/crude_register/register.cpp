@@ -14,6 +14,7 @@
 #include "options.h"
 #include "picture.h"
 #include "progress.h"
+#include "report_pair.h"
 #include "run_limits.h"
 #include "sides.h"
 #include "surfaces.h"
@@ -250,6 +251,23 @@ void print_text(const std::array<Side, 2>& sides, const Answer& answer, const st
   for (const std::string& file : written) std::cout << "written:    " << file << '\n';
 }
 
+// The answer on a page to look at.
+void write_page(const std::string& file, const std::array<Side, 2>& sides, const Result& result,
+                const std::optional<Error>& error, const std::string& hint)
+{
+  const std::array<const Scan*, 2> scans = {sides[0].scan.get(), sides[1].scan.get()};
+  Pair_report report{"register", {&sides[0], &sides[1]}, scans, verdict_of(result, hint), numbers_of(result, scans)};
+  if (error)
+    report.numbers.push_back({"Error",
+                              number_text(error->degrees) + " degrees, " + number_text(error->displacement) +
+                                  " root mean square displacement",
+                              "How far the answer is from the true motion of the file of poses."});
+  report.notes = notes_of(sides);
+  report.poses = poses_of(result);
+  report.have_common_frame = result.status() != CR::NOT_REGISTERED;
+  write_pair_report(file, report);
+}
+
 std::optional<po::variables_map> parse_register(const std::vector<std::string>& arguments)
 {
   po::options_description options("options");
@@ -269,6 +287,9 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
   add("picture", po::value<std::string>(),
       "file (PNG) for a picture of both scans as they were registered, the source orange and the target blue; side by "
       "side if they are not");
+  add("report", po::value<std::string>(),
+      "file (HTML) for a page to look at the scans in, before and after, with all numbers explained and a section to "
+      "move; it needs a browser and nothing else");
   add_options_of_sides(options);
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
   add("time-budget", po::value<double>(),
@@ -303,6 +324,8 @@ int run_register(const std::vector<std::string>& arguments)
   const auto poses_file = value_of<std::string>(map, "poses"), output = value_of<std::string>(map, "output");
   const auto picture = value_of<std::string>(map, "picture");
   check_picture(picture);
+  const auto report = value_of<std::string>(map, "report");
+  if (report) check_output(*report);
   const auto poses = poses_file ? read_poses(*poses_file) : std::map<std::string, Transformation>();
 
   std::array<Side, 2> sides;
@@ -352,6 +375,10 @@ int run_register(const std::vector<std::string>& arguments)
 
   progress.clear();
   const std::string hint = result.status() == CR::REGISTERED ? "" : hint_of(sides);
+  if (report) {
+    write_page(*report, sides, result, error, hint);
+    written.push_back(*report);
+  }
   if (map.count("json") > 0) print_json(sides, answer, error, written, hint, map.count("times") > 0);
   else print_text(sides, answer, error, written, hint);
   switch (result.status()) {

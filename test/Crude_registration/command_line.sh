@@ -366,7 +366,7 @@ expect 0 assemble $pair --picture model.png
 is_png model.png
 rejects "there is no folder nowhere" register absent.ply absent.ply --picture nowhere/pair.png
 rejects "it is a folder" register absent.ply absent.ply --picture scans
-for option in picture poses output table graph; do
+for option in picture report poses output table graph; do
   rejects "there is no folder nowhere" assemble absent.ply absent.ply --$option nowhere/file
 done
 
@@ -407,6 +407,35 @@ rejects "has to end in" convert scans/scan_0.ply converted.docx
 rejects "there is no folder nowhere" convert scans/scan_0.ply nowhere/converted.ply
 rejects "absent.ply" convert absent.ply converted.ply
 rejects "OUTPUT" convert scans/scan_0.ply
+# Reports: one page that names no other file, the same bytes with any number of threads; a bad name is told before the work.
+is_page()
+{
+  head -c 15 "$1" | grep -q "<!DOCTYPE html>" || fail "$1 is no page"
+  tail -n 1 "$1" | grep -q "</html>" || fail "$1 ends early"
+  grep -qE "(src|href)=\"?(https?|file|/)" "$1" && fail "$1 names another file"
+  grep -qF "$2" "$1" || fail "'$2' is not in $1"
+}
+expect 0 register $pair --report pair.html
+says "written:    pair.html"
+is_page pair.html "<h2 id=\"verdict_headline\">Registered</h2>"
+cp pair.html first.html
+expect 0 register $pair --report pair.html --threads 1
+cmp -s pair.html first.html || fail "the number of threads changes the report"
+expect 2 register plane_0.xyz plane_1.xyz --report planes.html
+is_page planes.html "<h2 id=\"verdict_headline\">Ambiguous</h2>"
+expect 0 assemble $pair --report model.html
+is_page model.html "<h2 id=\"verdict_headline\">All scans are connected</h2>"
+# A time budget that ends before there is a scan: a page without motions.
+expect 3 register $pair --report early.html --time-budget 1e-9
+is_page early.html "<h2 id=\"verdict_headline\">Not registered</h2>"
+# A name that would end what it stands in.
+cp plane_0.xyz '<b>&"@TITLE@.xyz'
+expect 2 register '<b>&"@TITLE@.xyz' plane_1.xyz --report named.html
+is_page named.html "<title>&lt;b&gt;&amp;&quot;@TITLE@.xyz to plane_1.xyz</title>"
+rejects "there is no folder nowhere" register absent.ply absent.ply --report nowhere/page.html
+rejects "there is no folder nowhere" judge absent.ply absent.ply --motion absent.txt --report nowhere/page.html
+expect 0 judge $pair --motion moved/motion.txt --report judged.html
+is_page judged.html "<h2 id=\"verdict_headline\">The motion is right</h2>"
 
 # Information.
 expect 0 info scans/scan_0.ply

@@ -47,8 +47,7 @@ public:
         m_fine_source_probes(source.fine, 0, 2500), m_fine_target_probes(target.fine, 0, 2500),
         m_source_probes(source.fine, 0, evidence_probes), m_target_probes(target.fine, 0, evidence_probes),
         m_usual(usual_log_ratios(coefficients)), m_extent(float((std::min)(source.extent, target.extent))),
-        m_fine_look(
-            look_at(source.fine, target.fine, 4.3f, 2.4f, 3 * float((std::max)(source.spacing, target.spacing)))),
+        m_fine_look(fine_look(source, target)),
         m_tolerance(probe_tolerance(source.fine, target.fine, m_fine_look.free_depth))
   {}
 

@@ -48,6 +48,15 @@ inline Look look_at(const Surfel_level& a, const Surfel_level& b, float times_he
           std::cos((std::min)((std::max)(turn, 0.2f), 0.7f)), free_depth};
 }
 
+// How far in front of what was seen a sample is in free space, in sampling distances of the coarser scan.
+inline constexpr float free_space_depth = 3;
+
+// How the judge looks at fine surfels: as much as all but a few of their own neighbours are off is near.
+inline Look fine_look(const Reduced_scan& a, const Reduced_scan& b)
+{
+  return look_at(a.fine, b.fine, 4.3f, 2.4f, free_space_depth * float((std::max)(a.spacing, b.spacing)));
+}
+
 // Each pose after a step from each of the reaches, in spacings of the coarse surfels, by some of the source's; scored
 // by the same ones, and the best first.
 inline void estimate_poses(const Reduced_scan& source, const Reduced_scan& target, std::size_t number_of_probes,

@@ -106,7 +106,7 @@ inline Refinement refined(const Reduced_scan& source, const Reduced_scan& target
   const Nearest_surfel surface{target.fine.surfels, target.fine.field, double(target.fine.spacing)};
   Refinement_options options{};
   options.sampling_distance = (std::max)(source.spacing, target.spacing);
-  options.reach = 2 * options.sampling_distance;
+  options.reach = residual_reach * options.sampling_distance;
   options.tolerance = 1e-2; // of a sampling distance: far below the noise
   return Point_to_plane<Nearest_surfel>(points, normals, surface, options, execution)(motion);
 }
