@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "files.h"
 #include "json.h"
+#include "known_poses.h"
 #include "options.h"
 #include "picture.h"
 #include "progress.h"
@@ -29,6 +30,7 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -106,6 +108,7 @@ Json to_json(const Result& result, const std::vector<std::string>& files, const 
                      {"residual", s.residual},
                      {"pose", ::to_json(s.pose)},
                      {"covariance", s.covariance}});
+    if (!s.lost_hint.empty()) scans.back()["lost_hint"] = s.lost_hint;
   }
   Json& edges = json["edges"] = Json::array();
   for (const auto& e : result.edges())
@@ -140,6 +143,7 @@ void print_text(const Result& result, const std::vector<std::string>& names)
       std::cout << "  " << names[i];
       if (s.reason.empty()) std::cout << ", residual " << s.residual << " sampling distances\n";
       else std::cout << ", alone: " << s.reason << '\n';
+      if (!s.lost_hint.empty()) std::cout << "    its known pose was dropped: " << s.lost_hint << '\n';
     }
   }
   std::size_t used = 0;
@@ -172,6 +176,11 @@ int run_assemble(const std::vector<std::string>& arguments)
   add("viewpoint", po::value<std::string>(),
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
   add("graph", po::value<std::string>(), "file for the graph of the pairs, for GraphViz");
+  add("known", po::value<std::string>(),
+      "file of poses that are known beforehand, of some scans or of all, of the form that --poses writes: hints, which "
+      "are tried first and decide where a pair does not; those of each component are in one frame");
+  add("fix", "take the known poses as they are: what they place stays where it is");
+  add("reference", po::value<std::string>(), "the scan whose frame is that of its component; default: the first one");
   add("store", po::value<std::string>(),
       "folder that keeps the answer of each pair: a run that was ended, or has more scans, does none again");
   add("time-budget", po::value<double>(), "seconds after which the search ends, with what has been found");
@@ -202,6 +211,10 @@ int run_assemble(const std::vector<std::string>& arguments)
 
   const auto files = scans_of_arguments(map["SCAN"].as<std::vector<std::string>>());
   const std::vector<std::string> names = names_of(files);
+  if (map.count("fix") > 0 && map.count("known") == 0) throw Usage_error("--fix needs --known");
+  Known known = known_of(value_of<std::string>(map, "known"), names);
+  if (const auto reference = value_of<std::string>(map, "reference"))
+    known.reference = place_of(*reference, names, "--reference");
   const auto apply_folder = value_of<std::string>(map, "apply");
   std::vector<std::string> applied;
   if (apply_folder) {
@@ -217,11 +230,17 @@ int run_assemble(const std::vector<std::string>& arguments)
   const double preparation = seconds_since(start);
   constexpr double shortest = 1e-9;
   progress.begin_stage("assembling");
-  const auto np =
-      CR::parameters::time_budget((std::max)(shortest, time_budget - preparation)).visitor(Terminal_visitor(progress));
+  const auto np = CR::parameters::time_budget((std::max)(shortest, time_budget - preparation))
+                      .visitor(Terminal_visitor(progress))
+                      .known_poses(std::cref(known.poses))
+                      .known_groups(std::cref(known.groups))
+                      .known_poses_are_fixed(map.count("fix") > 0);
   const auto store = value_of<std::string>(map, "store");
-  const Result result = store ? CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np.store(*store))
-                              : CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np);
+  const auto run = [&](const auto& parameters) {
+    return store ? CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, parameters.store(*store))
+                 : CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, parameters);
+  };
+  const Result result = known.reference ? run(np.reference_scan(*known.reference)) : run(np);
 
   progress.begin_stage("writing");
   if (const auto file = value_of<std::string>(map, "poses")) write_poses(*file, result, names);

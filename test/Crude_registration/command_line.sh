@@ -221,6 +221,24 @@ cmp -s out.txt several.json || fail "the assembly depends on the number of threa
 [ "$(head -n 1 model.aln)" = 4 ] || fail "not four scans in model.aln"
 expect 3 assemble many/scan_0.ply other/scan_0.ply
 expect 3 assemble $many --time-budget 1e-9
+# What is known beforehand: fixed poses come back as they were, a wrong hint is dropped and named.
+grep -v '^# component 1\|^other.ply\|^scan_1.ply' poses.txt > known.txt
+expect 0 assemble $many --known known.txt --fix --reference scan_1.ply --poses again.txt
+grep '^scan_[023].ply' known.txt | sort > fixed.txt
+grep '^scan_[023].ply' again.txt | sort | cmp -s - fixed.txt || fail "fixed poses are changed: $(cat fixed.txt again.txt)"
+expect 0 assemble $many --reference scan_1.ply --poses again.txt
+grep -q '^scan_1.ply 1 0 0 0 0 1 0 0 0 0 1 0$' again.txt || fail "the reference does not fix the frame"
+sed 's/^scan_0.ply .*/scan_0.ply 1 0 0 0 0 -1 0 0 0 0 -1 0/' known.txt > wrong.txt
+expect 0 assemble $many --known wrong.txt
+says "its known pose was dropped: it contradicts the pairs"
+[ "$(grep -c 'its known pose was dropped' out.txt)" -eq 1 ] || fail "not one known pose is dropped: $(cat out.txt)"
+expect 0 assemble $many --known wrong.txt --json
+grep -q '"lost_hint"' out.txt || fail "no dropped hint in the JSON"
+rejects "--fix needs --known" assemble $many --fix
+rejects "--reference names no scan: none.ply" assemble $many --reference none.ply
+echo "scan_0.ply 1 0 0" > short_known.txt
+rejects "short_known.txt" assemble $many --known short_known.txt
+rejects "missing_known.txt" assemble $many --known missing_known.txt
 rejects "no SCAN is given" assemble --poses poses.txt
 rejects "missing.ply" assemble many/scan_0.ply missing.ply
 

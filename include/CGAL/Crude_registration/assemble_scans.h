@@ -20,6 +20,7 @@
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
 #include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
 #include <CGAL/Crude_registration/internal/motion/Refinement.h>
+#include <CGAL/Crude_registration/motion/refine_motion.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 #include <CGAL/Crude_registration/register_scans.h>
 
@@ -29,6 +30,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,7 +77,7 @@ Assembly_result<Kernel> to_assembly_result(const Assembly_outcome& outcome)
   parts.is_interrupted = outcome.is_interrupted;
   for (std::size_t i = 0; i < outcome.poses.size(); ++i)
     parts.scans.push_back({outcome.components[i], to_aff_transformation<Kernel>(outcome.poses[i]), outcome.reasons[i],
-                           outcome.residuals[i], rows_of(outcome.covariances[i])});
+                           outcome.residuals[i], rows_of(outcome.covariances[i]), outcome.lost_hints[i]});
   for (const Assembly_edge& e : outcome.edges)
     parts.edges.push_back(
         {e.source, e.target, e.status, e.reason, e.registration, e.confidence, e.overlap, e.residual});
@@ -84,10 +86,42 @@ Assembly_result<Kernel> to_assembly_result(const Assembly_outcome& outcome)
   return Result(std::move(parts));
 }
 
+// What the parameters of that kind say of n scans. \throws std::invalid_argument
+template <class NamedParameters>
+Known_poses known_poses_parameters(const NamedParameters& np, std::size_t n)
+{
+  const auto fail = [](const std::string& text) { throw std::invalid_argument("assemble_scans: " + text); };
+  Known_poses known;
+  if constexpr (is_given<NamedParameters, internal_np::known_poses_t>) {
+    for (const auto& pose : CGAL::parameters::get_parameter_reference(cgal_parameters(np), internal_np::known_poses)) {
+      known.poses.emplace_back();
+      if (pose)
+        known.poses.back() =
+            Known_pose{0, rigid_argument(*pose, "assemble_scans", "one of known_poses"), to_rigid_motion(*pose)};
+    }
+    if (known.poses.size() != n) fail("known_poses has to have an entry for each scan");
+    known.are_fixed = parameter(np, internal_np::known_poses_are_fixed, false);
+    if constexpr (is_given<NamedParameters, internal_np::known_groups_t>) {
+      std::size_t i = 0;
+      for (const auto group :
+           CGAL::parameters::get_parameter_reference(cgal_parameters(np), internal_np::known_groups)) {
+        if (i < n && known.poses[i]) known.poses[i]->group = std::size_t(group);
+        ++i;
+      }
+      if (i != n) fail("known_groups has to have an entry for each scan");
+    }
+  }
+  if constexpr (is_given<NamedParameters, internal_np::reference_scan_t>) {
+    known.reference = std::size_t(parameter(np, internal_np::reference_scan, 0));
+    if (*known.reference >= n) fail("there is no scan reference_scan");
+  }
+  return known;
+}
+
 // `registration`: a Pair_registration or a Round_registration.
 template <class ConcurrencyTag, class Kernel, class Registration>
 Assembly_result<Kernel> assemble(const std::vector<const Reduced_scan*>& scans, const Registration& registration,
-                                 Run_control& control)
+                                 Run_control& control, const Known_poses& known = {})
 {
   // What is fused of many scans is no Scan: it is registered by the default, whatever the generator.
   const Surface_registration register_surfaces = [](const Reduced_scan& source, const Reduced_scan& target,
@@ -99,7 +133,7 @@ Assembly_result<Kernel> assemble(const std::vector<const Reduced_scan*>& scans, 
         to_result<Kernel>(register_reduced_scans(source, target, make_candidates, Execution::SEQUENTIAL, task)));
   };
   return to_assembly_result<Kernel>(
-      assemble_reduced_scans(scans, registration, register_surfaces, execution<ConcurrencyTag>(), control));
+      assemble_reduced_scans(scans, registration, register_surfaces, execution<ConcurrencyTag>(), control, known));
 }
 
 // The points of one scan against the surfaces of others, in a frame of the assembly.
@@ -156,6 +190,31 @@ back as components of its own.
     \cgalParamType{a model of `CandidateGenerator`}
     \cgalParamDefault{`Oriented_pair_candidates()`}
   \cgalParamNEnd
+  \cgalParamNBegin{known_poses}
+    \cgalParamDescription{poses that are known beforehand, of some scans or of all}
+    \cgalParamType{a range with a `std::optional<Aff_transformation_3>` for each scan, rigid to within a thousandth}
+    \cgalParamDefault{none is known}
+    \cgalParamExtra{They are hints: pairs that overlap by them are registered first, and a hint decides between motions
+                    that a pair leaves open. No scan is connected by a hint alone, and a wrong one does no harm but to
+                    the time: it is dropped, and `Assembly_result::Placed_scan::lost_hint` says so.}
+  \cgalParamNEnd
+  \cgalParamNBegin{known_groups}
+    \cgalParamDescription{what frame the known pose of each scan is in: those of one group are in one frame}
+    \cgalParamType{a range with a `std::size_t` for each scan}
+    \cgalParamDefault{all are in one frame}
+  \cgalParamNEnd
+  \cgalParamNBegin{known_poses_are_fixed}
+    \cgalParamDescription{whether the known poses are no hints but stay as they are}
+    \cgalParamType{`bool`}
+    \cgalParamDefault{`false`}
+    \cgalParamExtra{No pair of a group is registered. The frame of a component that has such scans is that of the known
+                    pose of the first of them.}
+  \cgalParamNEnd
+  \cgalParamNBegin{reference_scan}
+    \cgalParamDescription{the place of the scan whose frame is that of its component, unless a fixed pose gives it}
+    \cgalParamType{`std::size_t`}
+    \cgalParamDefault{the first scan of each component}
+  \cgalParamNEnd
   \cgalParamNBegin{store}
     \cgalParamDescription{a folder, made if missing, that keeps a file for each pair that was registered: a run that was
                           ended, or has more scans, registers none of them again}
@@ -194,6 +253,7 @@ auto assemble_scans(const ScanRange& scans, const NamedParameters& np = paramete
   internal::Run_control control(internal::visitor_parameter(np), internal::time_budget_parameter(np, "assemble_scans"));
   std::vector<const internal::Reduced_scan*> reduced;
   for (const auto& scan : scans) reduced.push_back(&scan.reduced());
+  const internal::Known_poses known = internal::known_poses_parameters(np, reduced.size());
   const auto first = std::begin(scans);
   const auto at = [&](std::size_t i) -> const Scan<Kernel>& {
     return first[static_cast<typename std::iterator_traits<decltype(std::begin(scans))>::difference_type>(i)];
@@ -215,7 +275,7 @@ auto assemble_scans(const ScanRange& scans, const NamedParameters& np = paramete
       return answer;
     };
   }
-  return internal::assemble<ConcurrencyTag, Kernel>(reduced, register_pair, control);
+  return internal::assemble<ConcurrencyTag, Kernel>(reduced, register_pair, control, known);
 }
 
 /*!
