@@ -13,6 +13,7 @@
 #include "files.h"
 #include "json.h"
 #include "known_poses.h"
+#include "model_surface.h"
 #include "options.h"
 #include "picture.h"
 #include "prepared_scans.h"
@@ -211,6 +212,12 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
       "folder, made if missing, for the files of the largest component as they are but moved to its frame: in their "
       "own "
       "formats, with all that is in them (colours, intensities, texture, faces, comments), normals turned");
+  add("mesh", po::value<std::string>(),
+      "file (PLY) for the surface of the largest component as one mesh, of the points of its scans together, one for "
+      "each cell of about two sampling distances");
+  add("surface", po::value<std::string>()->default_value("advancing-front"),
+      "how the mesh is made: advancing-front, which takes the points as they are, scale-space, which smoothes them, or "
+      "poisson, which closes the surface where it was not seen");
   add("table", po::value<std::string>(), "file for the overlaps and the residuals of all pairs, as text");
   add("picture", po::value<std::string>(), "file (PNG) for a picture of the largest component, a colour a scan");
   add("viewpoint", po::value<std::string>(),
@@ -253,8 +260,10 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
     return 0;
   }
 
-  for (const char* option : {"poses", "output", "table", "graph"})
+  for (const char* option : {"poses", "output", "mesh", "table", "graph"})
     if (const auto file = value_of<std::string>(map, option)) check_output(*file);
+  const std::string surface = map["surface"].as<std::string>();
+  check_surface_method(surface);
   const auto picture = value_of<std::string>(map, "picture");
   check_picture(picture);
 
@@ -303,6 +312,7 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
     const std::string note = apply(files[i], applied[i], result.pose(i), scans[i].spacing());
     if (!note.empty()) notes.push_back(note);
   }
+  if (const auto file = value_of<std::string>(map, "mesh")) write_model_surface(*file, surface, result, scans);
   if (picture) {
     std::vector<Surface> surfaces;
     for (std::size_t i = 0; i < files.size(); ++i) {

@@ -210,6 +210,19 @@ sed -n 2p poses.txt | grep -q '^scan_2.ply 1 0 0 0 0 1 0 0 0 0 1 0$' || fail "th
 grep -q '"scan_0.ply" -- "scan_1.ply"\|"scan_1.ply" -- "scan_0.ply"' graph.dot || fail "no edge in $(cat graph.dot)"
 grep -q '^overlap: ' table.txt || fail "no table of overlaps"
 head -c 400 model.ply | grep -aq '^property int scan$' || fail "no numbers of scans in the model"
+# The mesh of the model, by each method: a scan lies on it as in the model.
+for surface in advancing-front scale-space poisson; do
+  expect 0 assemble $many --mesh mesh.ply --surface $surface
+  cp mesh.ply once.ply
+  expect 0 register many/scan_2.ply mesh.ply --json
+  holds /status '"registered"'
+  "$json_at" /target_from_source < out.txt > motion.json
+  tr -d '[] \n' < motion.json | awk -F, '{ exit !($1 > 0.999 && $6 > 0.999 && $11 > 0.999 && $4^2 + $8^2 + $12^2 < 0.01) }' ||
+    fail "a scan does not lie on the mesh by $surface: $(cat motion.json)"
+done
+expect 0 assemble $many --mesh mesh.ply --surface poisson
+cmp -s mesh.ply once.ply || fail "the mesh is not the same every time"
+rejects "--surface takes" assemble $many --mesh mesh.ply --surface marching
 expect 0 assemble $many --json --poses model.conf
 cp out.txt several.json
 [ "$(grep -c '^bmesh scan_' model.conf)" -eq 4 ] || fail "not four scans in model.conf"
