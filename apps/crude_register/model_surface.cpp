@@ -131,9 +131,12 @@ void write_model_surface(const std::string& file, const std::string& method, con
 {
   CGAL::get_default_random() = CGAL::Random(0); // the same mesh every time
   const std::vector<Oriented_point> points = fused_points(result, scans);
-  const Soup soup = method == "poisson"       ? by_poisson(points)
-                    : method == "scale-space" ? by_scale_space(points)
-                                              : by_advancing_front(points);
+  Soup soup = method == "poisson"       ? by_poisson(points)
+              : method == "scale-space" ? by_scale_space(points)
+                                        : by_advancing_front(points);
+  // CGAL's order of the faces depends on where they lie in memory.
+  for (Face& f : soup.faces) std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+  std::sort(soup.faces.begin(), soup.faces.end());
   CR::write_file(file, [&](std::ostream& out) {
     CGAL::IO::set_binary_mode(out);
     CGAL::IO::write_PLY(out, soup.points, soup.faces);
