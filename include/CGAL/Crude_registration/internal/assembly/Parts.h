@@ -14,8 +14,9 @@
 
 // Joins scans to parts of a model by the motions that their pairs may have, the best supported first.
 
-#include <CGAL/Crude_registration/internal/assembly/Pair_answer.h>
+#include <CGAL/Crude_registration/internal/assembly/Assembly_coefficients.h>
 #include <CGAL/Crude_registration/internal/assembly/Known_poses.h>
+#include <CGAL/Crude_registration/internal/assembly/Pair_answer.h>
 #include <CGAL/Crude_registration/internal/assembly/Placed_scans.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
@@ -76,9 +77,10 @@ class Parts
 {
 public:
   // `known`: in the order of the scans, of their own frames.
-  Parts(const Placed_scans& placed, std::vector<Tried_pair> pairs, Trust trust, const Known_poses& known)
-      : m_placed(placed), m_pairs(std::move(pairs)), m_trust(trust), m_known(known), m_poses(placed.size()),
-        m_part_of(placed.size())
+  Parts(const Placed_scans& placed, std::vector<Tried_pair> pairs, Trust trust, const Known_poses& known,
+        const Assembly_coefficients& coefficients = {})
+      : m_placed(placed), m_pairs(std::move(pairs)), m_trust(trust), m_known(known), m_coefficients(coefficients),
+        m_poses(placed.size()), m_part_of(placed.size())
   {
     for (std::size_t i = 0; i < placed.size(); ++i) {
       m_parts.push_back({{i}});
@@ -130,9 +132,6 @@ public:
   }
 
 private:
-  static constexpr double chance = 0.02;     // that motions agree by chance
-  static constexpr double least_rest = 0.02; // no pair is more certain than this
-
   using Key = std::pair<std::size_t, std::size_t>; // parts, the smaller number first
 
   void put_together_what_is_fixed()
@@ -163,19 +162,19 @@ private:
         const Rigid_motion hinted = m_known.of(a)->motion.inverse() * m_known.of(b)->motion;
         if (m_placed.displacement(b, hinted, m_poses[a].inverse() * join.motion * m_poses[b]) <=
             hint_tolerance * m_placed.deviation(b))
-          return even / chance;
+          return even / m_coefficients.agreeing;
       }
     if (!is_hinted) return std::nullopt;
     return even;
   }
 
-  double probability(const Ranked_motion& m) const { return (std::min)(m.probability, 1 - least_rest); }
+  double probability(const Ranked_motion& m) const { return (std::min)(m.probability, 1 - m_coefficients.wrong); }
 
   double rest(const Pair_answer& answer) const
   {
     double sum = 0;
     for (const Ranked_motion& m : answer.motions) sum += m.probability;
-    return (std::max)(1 - sum, least_rest);
+    return (std::max)(1 - sum, m_coefficients.wrong);
   }
 
   // The motion of the parts' frames, first from second, that a motion of a pair between them means.
@@ -197,6 +196,7 @@ private:
   // The likelihood of a hypothesis by the votes of all pairs.
   double vote(const std::vector<std::size_t>& pairs, Join& join) const
   {
+    const double chance = m_coefficients.agreeing;
     double likelihood = chance;
     join.agreeing = join.certain = join.contradicting = 0;
     join.overlap = 0;
@@ -278,12 +278,10 @@ private:
       distinct.push_back(h);
     }
     double sum = none;
-    // What one of ten probes in free space makes of the odds, as the judgement of a pair has it; some are there by
-    // chance, at the rims of what was seen.
-    constexpr double free_space_evidence = 45, by_chance = 0.03;
     for (auto& h : distinct) {
       h.second.violations = violations(h.second);
-      h.first *= std::exp(-free_space_evidence * (std::max)(0., h.second.violations - by_chance));
+      h.first *=
+          std::exp(-m_coefficients.free_space * (std::max)(0., h.second.violations - m_coefficients.at_the_rims));
       sum += h.first;
     }
     const auto best = std::max_element(distinct.begin(), distinct.end(),
@@ -338,6 +336,7 @@ private:
   const std::vector<Tried_pair> m_pairs;
   const Trust m_trust;
   const Known_poses& m_known;
+  const Assembly_coefficients m_coefficients;
   std::vector<Rigid_motion> m_poses;
   std::vector<std::size_t> m_part_of;
   std::vector<Part> m_parts;

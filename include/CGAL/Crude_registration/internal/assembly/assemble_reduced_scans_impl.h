@@ -208,7 +208,8 @@ private:
     Tried_pair pair{{part.scans.front(), other.scans.front()}, std::move(answer), true};
     // The judgement of a pair knows no surface of this size, around which more fits by chance: it is not enough alone;
     // the pair of two scans that has the same motion among its own makes it so.
-    constexpr double most_certain = 0.85;
+    // The odds are half of those by which parts are joined.
+    constexpr double most_certain = trusted_join / (2 - trusted_join);
     double sum = 0;
     for (const Ranked_motion& m : pair.answer.motions) sum += m.probability;
     if (sum > most_certain)
