@@ -12,13 +12,17 @@
 #include "commands.h"
 #include "files.h"
 #include "json.h"
+#include "known_poses.h"
+#include "model_surface.h"
 #include "options.h"
 #include "picture.h"
+#include "prepared_scans.h"
 #include "progress.h"
 #include "report_assembly.h"
 #include "run_limits.h"
 #include "scan_arguments.h"
 #include "surfaces.h"
+#include "workers.h"
 
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/assemble_scans.h>
@@ -30,6 +34,7 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -43,6 +48,7 @@
 
 namespace {
 
+namespace CRI = CR::internal;
 using Scan = CR::Scan<Kernel>;
 using Result = CR::Assembly_result<Kernel>;
 
@@ -53,9 +59,9 @@ struct Input
   std::exception_ptr failure;
 };
 
-// Reads and prepares the scans; of several failures the first is reported.
-std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::string>& files,
-                           const std::optional<Point>& viewpoint, Progress& progress)
+// Prepares the scans; of several failures the first is reported.
+template <class Prepare>
+std::vector<Scan> prepared(const std::vector<std::string>& files, const Prepare& prepare, Progress& progress)
 {
   progress.begin_stage("reading and preparing " + std::to_string(files.size()) + " scans");
   std::atomic<std::size_t> done{0};
@@ -64,10 +70,7 @@ std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::
   CGAL::for_each<CGAL::Parallel_if_available_tag>(inputs, [&](Input& input) {
     try {
       if (is_interrupted()) return true;
-      const Scan_file contents = read_scan(map, input.file);
-      with_viewpoint(viewpoint_of(contents, viewpoint), [&](const auto& np) {
-        input.scan.emplace(contents, np.visitor(Interruption_visitor()), input.file);
-      });
+      input.scan.emplace(prepare(input.file));
       progress.set_share(double(++done) / double(inputs.size()));
     } catch (const CR::Preparation_interrupted&) {
     } catch (...) {
@@ -82,6 +85,47 @@ std::vector<Scan> prepared(const po::variables_map& map, const std::vector<std::
     scans.push_back(std::move(*input.scan));
   }
   return scans;
+}
+
+// The same by the workers, who get all of them.
+std::vector<Scan> prepared_by(Workers& workers, std::size_t n)
+{
+  std::vector<std::string> tasks;
+  for (std::size_t i = 0; i < n; ++i) tasks.push_back("prepare " + std::to_string(i));
+  const std::vector<std::string> bytes = workers.answers(tasks, CRI::to_the_end());
+  workers.give(bytes);
+  std::vector<Scan> scans;
+  for (const std::string& b : bytes) scans.push_back(CR::scan_from_bytes<Kernel>(b));
+  return scans;
+}
+
+// The pairs of a round by the workers.
+CRI::Round_registration registration_by(Workers& workers)
+{
+  return [&workers](const std::vector<CRI::Input_pair>& pairs, CRI::Run_control& control) {
+    std::vector<std::string> tasks;
+    for (const CRI::Input_pair& p : pairs)
+      tasks.push_back("register " + std::to_string(p.source) + ' ' + std::to_string(p.target));
+    std::vector<CRI::Pair_answer> answers;
+    for (const std::string& bytes : workers.answers(tasks, control)) answers.push_back(CRI::answer_of_bytes(bytes));
+    return answers;
+  };
+}
+
+// Does what the planner asks for, to the end.
+template <class Prepare>
+void serve(Workers& workers, const std::vector<std::string>& files, const Prepare& prepare,
+           const std::optional<std::string>& store)
+{
+  std::vector<Scan> scans;
+  CRI::Pair_registration register_pair;
+  const auto take = [&](const std::string& bytes) {
+    scans.push_back(CR::scan_from_bytes<Kernel>(bytes));
+    if (scans.size() == files.size())
+      register_pair = CRI::pair_registration(scans, CR::Oriented_pair_candidates(), store.value_or(""));
+  };
+  workers.serve({[&](std::size_t i) { return CR::scan_to_bytes(prepare(files[i])); }, take,
+                 [&](std::size_t i, std::size_t j) { return CRI::to_bytes(register_pair(i, j, CRI::to_the_end())); }});
 }
 
 Json to_json(const Result& result, const std::vector<std::string>& files, const std::vector<std::string>& notes,
@@ -99,6 +143,7 @@ Json to_json(const Result& result, const std::vector<std::string>& files, const 
                      {"residual", s.residual},
                      {"pose", ::to_json(s.pose)},
                      {"covariance", s.covariance}});
+    if (!s.lost_hint.empty()) scans.back()["lost_hint"] = s.lost_hint;
   }
   Json& edges = json["edges"] = Json::array();
   for (const auto& e : result.edges())
@@ -133,6 +178,7 @@ void print_text(const Result& result, const std::vector<std::string>& names)
       std::cout << "  " << names[i];
       if (s.reason.empty()) std::cout << ", residual " << s.residual << " sampling distances\n";
       else std::cout << ", alone: " << s.reason << '\n';
+      if (!s.lost_hint.empty()) std::cout << "    its known pose was dropped: " << s.lost_hint << '\n';
     }
   }
   std::size_t used = 0;
@@ -143,9 +189,8 @@ void print_text(const Result& result, const std::vector<std::string>& names)
       std::cout << "  " << names[e.source] << " - " << names[e.target] << ' ' << e.status << ": " << e.reason << '\n';
 }
 
-} // namespace
-
-int run_assemble(const std::vector<std::string>& arguments)
+// `workers`: the processes that do the tasks; none: this one does them all.
+int assemble(const std::vector<std::string>& arguments, Workers* workers)
 {
   po::options_description options("options");
   auto add = options.add_options();
@@ -160,6 +205,12 @@ int run_assemble(const std::vector<std::string>& arguments)
       "folder, made if missing, for the files of the largest component as they are but moved to its frame: in their "
       "own "
       "formats, with all that is in them (colours, intensities, texture, faces, comments), normals turned");
+  add("mesh", po::value<std::string>(),
+      "file (PLY) for the surface of the largest component as one mesh, of the points of its scans together, one for "
+      "each cell of about two sampling distances");
+  add("surface", po::value<std::string>()->default_value("advancing-front"),
+      "how the mesh is made: advancing-front, which takes the points as they are, scale-space, which smoothes them, or "
+      "poisson, which closes the surface where it was not seen");
   add("table", po::value<std::string>(), "file for the overlaps and the residuals of all pairs, as text");
   add("picture", po::value<std::string>(), "file (PNG) for a picture of the largest component, a colour a scan");
   add("report", po::value<std::string>(),
@@ -168,8 +219,14 @@ int run_assemble(const std::vector<std::string>& arguments)
   add("viewpoint", po::value<std::string>(),
       "x,y,z of the sensor, in each scan's own frame, for scans whose files do not tell it");
   add("graph", po::value<std::string>(), "file for the graph of the pairs, for GraphViz");
+  add("known", po::value<std::string>(),
+      "file of poses that are known beforehand, of some scans or of all, of the form that --poses writes: hints, which "
+      "are tried first and decide where a pair does not; those of each component are in one frame");
+  add("fix", "take the known poses as they are: what they place stays where it is");
+  add("reference", po::value<std::string>(), "the scan whose frame is that of its component; default: the first one");
   add("store", po::value<std::string>(),
-      "folder that keeps the answer of each pair: a run that was ended, or has more scans, does none again");
+      "folder that keeps each prepared scan and the answer of each pair: a run that was ended, or has more scans, does "
+      "none again; several runs may share it");
   add("time-budget", po::value<double>(), "seconds after which the search ends, with what has been found");
   add("threads", po::value<int>(), "largest number of threads; the answer does not depend on it");
   add("json", "print JSON, the same bytes for the same scans");
@@ -191,13 +248,26 @@ int run_assemble(const std::vector<std::string>& arguments)
   limit_threads(map);
   const double time_budget = time_budget_of(map);
 
-  for (const char* option : {"poses", "output", "table", "graph", "report"})
+  const auto files = scans_of_arguments(map["SCAN"].as<std::vector<std::string>>());
+  const auto store = value_of<std::string>(map, "store");
+  const auto prepare = [&](const std::string& file) { return prepared_scan(map, file, viewpoint, store); };
+  if (workers && !workers->is_planner()) {
+    serve(*workers, files, prepare, store);
+    return 0;
+  }
+
+  for (const char* option : {"poses", "output", "mesh", "table", "graph", "report"})
     if (const auto file = value_of<std::string>(map, option)) check_output(*file);
+  const std::string surface = map["surface"].as<std::string>();
+  check_surface_method(surface);
   const auto picture = value_of<std::string>(map, "picture");
   check_picture(picture);
 
-  const auto files = scans_of_arguments(map["SCAN"].as<std::vector<std::string>>());
   const std::vector<std::string> names = names_of(files);
+  if (map.count("fix") > 0 && map.count("known") == 0) throw Usage_error("--fix needs --known");
+  Known known = known_of(value_of<std::string>(map, "known"), names);
+  if (const auto reference = value_of<std::string>(map, "reference"))
+    known.reference = place_of(*reference, names, "--reference");
   const auto apply_folder = value_of<std::string>(map, "apply");
   std::vector<std::string> applied;
   if (apply_folder) {
@@ -209,15 +279,21 @@ int run_assemble(const std::vector<std::string>& arguments)
   watch_for_interruption();
   Progress progress;
   const auto start = Clock::now();
-  const std::vector<Scan> scans = prepared(map, files, viewpoint, progress);
+  const std::vector<Scan> scans = workers ? prepared_by(*workers, files.size()) : prepared(files, prepare, progress);
   const double preparation = seconds_since(start);
   constexpr double shortest = 1e-9;
   progress.begin_stage("assembling");
-  const auto np =
-      CR::parameters::time_budget((std::max)(shortest, time_budget - preparation)).visitor(Terminal_visitor(progress));
-  const auto store = value_of<std::string>(map, "store");
-  const Result result = store ? CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np.store(*store))
-                              : CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, np);
+  const auto np = CR::parameters::time_budget((std::max)(shortest, time_budget - preparation))
+                      .visitor(Terminal_visitor(progress))
+                      .known_poses(std::cref(known.poses))
+                      .known_groups(std::cref(known.groups))
+                      .known_poses_are_fixed(map.count("fix") > 0);
+  const CRI::Round_registration registration = workers ? registration_by(*workers) : CRI::Round_registration();
+  const auto run = [&](const auto& parameters) {
+    return CRI::assemble_scans_by<CGAL::Parallel_if_available_tag>(registration, scans,
+                                                                   parameters.store(store.value_or("")));
+  };
+  const Result result = known.reference ? run(np.reference_scan(*known.reference)) : run(np);
 
   progress.begin_stage("writing");
   if (const auto file = value_of<std::string>(map, "poses")) write_poses(*file, result, names);
@@ -232,18 +308,19 @@ int run_assemble(const std::vector<std::string>& arguments)
     const std::string note = apply(files[i], applied[i], result.pose(i), scans[i].spacing());
     if (!note.empty()) notes.push_back(note);
   }
-  const auto surface = [&](std::size_t i) {
+  const auto surface_of = [&](std::size_t i) {
     const Scan_file contents = read_scan(map, files[i]);
     return surface_to_show(contents, viewpoint_of(contents, viewpoint), &scans[i]);
   };
   if (const auto file = value_of<std::string>(map, "report"))
     write_assembly_report(
-        *file, result, scans, names, [&](std::size_t i) { return points_of(read_scan(map, files[i])); }, surface);
+        *file, result, scans, names, [&](std::size_t i) { return points_of(read_scan(map, files[i])); }, surface_of);
+  if (const auto file = value_of<std::string>(map, "mesh")) write_model_surface(*file, surface, result, scans);
   if (picture) {
     std::vector<Surface> surfaces;
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (result.component(i) != 0) continue;
-      surfaces.push_back(surface(i));
+      surfaces.push_back(surface_of(i));
       move(surfaces.back(), result.pose(i));
     }
     write_picture(*picture, std::move(surfaces), true);
@@ -261,4 +338,16 @@ int run_assemble(const std::vector<std::string>& arguments)
       std::cout << "  " << stage.name << ' ' << stage.count << ' ' << stage.seconds << '\n';
   }
   return files.size() == 1 || result.number_of_components() < files.size() ? EXIT_REGISTERED : EXIT_NOT_REGISTERED;
+}
+
+} // namespace
+
+int run_assemble(const std::vector<std::string>& arguments)
+{
+  return assemble(arguments, nullptr);
+}
+
+int run_assemble_by(Workers& workers, const std::vector<std::string>& arguments)
+{
+  return assemble(arguments, &workers);
 }

@@ -26,6 +26,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -293,14 +294,14 @@ struct Told
     return answer;
   }
 
-  CR::internal::Assembly_outcome assemble()
+  CR::internal::Assembly_outcome assemble(const CR::internal::Known_poses& known = {})
   {
     std::vector<const CR::internal::Reduced_scan*> reduced;
     for (const Scan& s : set.scans) reduced.push_back(&s.reduced());
     CR::internal::Run_control control;
     return CR::internal::assemble_reduced_scans(
         reduced, [&](std::size_t i, std::size_t j, CR::internal::Run_control&) { return (*this)(i, j); }, {},
-        CR::internal::Execution::SEQUENTIAL, control);
+        CR::internal::Execution::SEQUENTIAL, control, known);
   }
 
   const CR::internal::Assembly_edge* edge(const CR::internal::Assembly_outcome& outcome, std::size_t i,
@@ -384,6 +385,121 @@ BOOST_AUTO_TEST_CASE(what_nothing_decides_stays_apart)
   BOOST_TEST(outcome.components[2] == 1u);
   BOOST_TEST(told.edge(outcome, 1, 2)->status == CR::NOT_CONNECTING);
   BOOST_TEST(!outcome.reasons[2].empty());
+}
+
+namespace {
+
+// The poses of the scans in the scene, the z axis of each turned by so much.
+CR::internal::Known_poses hints_of(const Told& told, double degrees)
+{
+  CR::internal::Known_poses known;
+  for (std::size_t i = 0; i < told.scene_from_scan.size(); ++i)
+    known.poses.push_back(
+        CR::internal::Known_pose{0, turned(told.scene_from_scan[i], i % 2 == 0 ? degrees : -degrees)});
+  return known;
+}
+
+// A third scan that no pair places: two motions are left open.
+Told undecided(const Set& set)
+{
+  Told told(set);
+  told.answers[{0, 2}] = {};
+  CR::internal::Pair_answer& answer = told.answers[{1, 2}];
+  answer.status = CR::AMBIGUOUS;
+  answer.overlap = 0.5;
+  answer.motions = {{turned(told.truth(1, 2), 90), 0.4}, {told.truth(1, 2), 0.35}};
+  return told;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(hints_decide_what_pairs_leave_open_and_nothing_else)
+{
+  const Set set = views_of(0, {0, 45, 90}), all = views_of(0, around);
+  BOOST_TEST(undecided(set).assemble().number_of_components == 2u);
+  Told told = undecided(set);
+  told.check(told.assemble(hints_of(told, 5)));
+  // By a hint alone nothing is placed.
+  told.answers[{1, 2}] = {};
+  BOOST_TEST(told.assemble(hints_of(told, 0)).number_of_components == 2u);
+  // Hints that are wrong throughout change nothing.
+  Told others(all);
+  others.check(others.assemble(hints_of(others, 80)));
+}
+
+BOOST_AUTO_TEST_CASE(a_hint_that_is_wrong_is_dropped_and_named)
+{
+  const Set set = views_of(0, around);
+  for (const std::size_t wrong : {0u, 5u}) {
+    Told told(set);
+    CR::internal::Known_poses known = hints_of(told, 5);
+    known.poses[wrong]->motion = turned(known.poses[wrong]->motion, 100);
+    known.poses[3].reset();
+    const auto outcome = told.assemble(known);
+    told.check(outcome);
+    for (std::size_t i = 0; i < set.scans.size(); ++i) BOOST_TEST(outcome.lost_hints[i].empty() == (i != wrong));
+  }
+  // Of two that contradict each other nothing tells which is wrong; one alone says nothing; what is fixed is no hint.
+  Told told(set);
+  CR::internal::Known_poses known;
+  known.poses.resize(set.scans.size());
+  known.poses[1] = CR::internal::Known_pose{0, told.scene_from_scan[1]};
+  known.poses[2] = CR::internal::Known_pose{0, turned(told.scene_from_scan[2], 100)};
+  known.poses[6] = CR::internal::Known_pose{1, told.scene_from_scan[6]};
+  const auto outcome = told.assemble(known);
+  told.check(outcome);
+  for (std::size_t i = 0; i < set.scans.size(); ++i) BOOST_TEST(outcome.lost_hints[i].empty() == (i != 1 && i != 2));
+  known.are_fixed = true;
+  for (const std::string& text : told.assemble(known).lost_hints) BOOST_TEST(text.empty());
+}
+
+BOOST_AUTO_TEST_CASE(fixed_poses_stay_and_give_the_frame)
+{
+  const Set set = views_of(0, around);
+  Told told(set);
+  CR::internal::Known_poses known = hints_of(told, 0.5);
+  known.are_fixed = true;
+  for (const std::size_t i : {0u, 3u, 6u}) known.poses[i].reset();
+  for (const std::size_t i : {4u, 7u}) known.poses[i]->group = 1;
+  const auto outcome = told.assemble(known);
+  BOOST_TEST_REQUIRE(outcome.number_of_components == 1u);
+  for (const std::size_t i : {1u, 2u, 5u}) {
+    BOOST_TEST((outcome.poses[i].rotation == known.poses[i]->motion.rotation));
+    BOOST_TEST((outcome.poses[i].translation == known.poses[i]->motion.translation));
+    BOOST_TEST(outcome.covariances[i].isZero());
+  }
+  // The other group is moved as a whole.
+  const Rigid_motion there = outcome.poses[4].inverse() * outcome.poses[7],
+                     given = known.poses[4]->motion.inverse() * known.poses[7]->motion;
+  BOOST_TEST(difference(there, given, set.views[7]->centre) < 1e-9);
+  for (const std::size_t i : {0u, 3u, 4u, 6u, 7u})
+    BOOST_TEST(difference(outcome.poses[i], told.scene_from_scan[i], set.views[i]->centre) <
+               8 * set.scans[i].spacing());
+  for (const auto& group : {std::vector<std::size_t>{1, 2, 5}, std::vector<std::size_t>{4, 7}})
+    for (const std::size_t i : group)
+      for (const std::size_t j : group) BOOST_TEST(told.asked.count({i, j}) == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(known_poses_as_parameters)
+{
+  const Set set = views_of(0, {0, 45, 90});
+  const Assembly result = CR::assemble_scans(set.scans, CR::parameters::reference_scan(1));
+  BOOST_TEST(result.number_of_components() == 1u);
+  BOOST_TEST((to_rigid_motion(result.pose(1)).rotation == Matrix::Identity()));
+  for (const std::size_t i : {0u, 2u})
+    BOOST_TEST(difference(to_rigid_motion(result.pose(i)), true_motion(*set.views[i], *set.views[1]),
+                          set.views[i]->centre) < 2 * set.scans[i].spacing());
+  std::vector<std::optional<Kernel::Aff_transformation_3>> known(3);
+  known[2] = CR::internal::to_aff_transformation<Kernel>(set.views[2]->scene_from_scan);
+  const Assembly placed = CR::assemble_scans(set.scans, CR::parameters::known_poses(known).known_poses_are_fixed(true));
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) BOOST_TEST(placed.pose(2).m(r, c) == known[2]->m(r, c));
+  for (std::size_t i = 0; i < 3; ++i)
+    BOOST_TEST(difference(to_rigid_motion(placed.pose(i)), set.views[i]->scene_from_scan, set.views[i]->centre) <
+               2 * set.scans[i].spacing());
+  BOOST_CHECK_THROW(CR::assemble_scans(set.scans, CR::parameters::reference_scan(3)), std::invalid_argument);
+  known.pop_back();
+  BOOST_CHECK_THROW(CR::assemble_scans(set.scans, CR::parameters::known_poses(known)), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(bridges_of_graphs)

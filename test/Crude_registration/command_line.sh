@@ -210,6 +210,19 @@ sed -n 2p poses.txt | grep -q '^scan_2.ply 1 0 0 0 0 1 0 0 0 0 1 0$' || fail "th
 grep -q '"scan_0.ply" -- "scan_1.ply"\|"scan_1.ply" -- "scan_0.ply"' graph.dot || fail "no edge in $(cat graph.dot)"
 grep -q '^overlap: ' table.txt || fail "no table of overlaps"
 head -c 400 model.ply | grep -aq '^property int scan$' || fail "no numbers of scans in the model"
+# The mesh of the model, by each method: a scan lies on it as in the model.
+for surface in advancing-front scale-space poisson; do
+  expect 0 assemble $many --mesh mesh.ply --surface $surface
+  cp mesh.ply once.ply
+  expect 0 register many/scan_2.ply mesh.ply --json
+  holds /status '"registered"'
+  "$json_at" /target_from_source < out.txt > motion.json
+  tr -d '[] \n' < motion.json | awk -F, '{ exit !($1 > 0.999 && $6 > 0.999 && $11 > 0.999 && $4^2 + $8^2 + $12^2 < 0.01) }' ||
+    fail "a scan does not lie on the mesh by $surface: $(cat motion.json)"
+done
+expect 0 assemble $many --mesh mesh.ply --surface poisson
+cmp -s mesh.ply once.ply || fail "the mesh is not the same every time"
+rejects "--surface takes" assemble $many --mesh mesh.ply --surface marching
 expect 0 assemble $many --json --poses model.conf
 cp out.txt several.json
 [ "$(grep -c '^bmesh scan_' model.conf)" -eq 4 ] || fail "not four scans in model.conf"
@@ -221,6 +234,24 @@ cmp -s out.txt several.json || fail "the assembly depends on the number of threa
 [ "$(head -n 1 model.aln)" = 4 ] || fail "not four scans in model.aln"
 expect 3 assemble many/scan_0.ply other/scan_0.ply
 expect 3 assemble $many --time-budget 1e-9
+# What is known beforehand: fixed poses come back as they were, a wrong hint is dropped and named.
+grep -v '^# component 1\|^other.ply\|^scan_1.ply' poses.txt > known.txt
+expect 0 assemble $many --known known.txt --fix --reference scan_1.ply --poses again.txt
+grep '^scan_[023].ply' known.txt | sort > fixed.txt
+grep '^scan_[023].ply' again.txt | sort | cmp -s - fixed.txt || fail "fixed poses are changed: $(cat fixed.txt again.txt)"
+expect 0 assemble $many --reference scan_1.ply --poses again.txt
+grep -q '^scan_1.ply 1 0 0 0 0 1 0 0 0 0 1 0$' again.txt || fail "the reference does not fix the frame"
+sed 's/^scan_0.ply .*/scan_0.ply 1 0 0 0 0 -1 0 0 0 0 -1 0/' known.txt > wrong.txt
+expect 0 assemble $many --known wrong.txt
+says "its known pose was dropped: it contradicts the pairs"
+[ "$(grep -c 'its known pose was dropped' out.txt)" -eq 1 ] || fail "not one known pose is dropped: $(cat out.txt)"
+expect 0 assemble $many --known wrong.txt --json
+grep -q '"lost_hint"' out.txt || fail "no dropped hint in the JSON"
+rejects "--fix needs --known" assemble $many --fix
+rejects "--reference names no scan: none.ply" assemble $many --reference none.ply
+echo "scan_0.ply 1 0 0" > short_known.txt
+rejects "short_known.txt" assemble $many --known short_known.txt
+rejects "missing_known.txt" assemble $many --known missing_known.txt
 rejects "no SCAN is given" assemble --poses poses.txt
 rejects "missing.ply" assemble many/scan_0.ply missing.ply
 

@@ -35,7 +35,7 @@ namespace Crude_registration {
 The answer of `assemble_scans()`: a value, which refers to no scan. Scans are called by their places in the input.
 
 The scans lie in *components*: what could not be connected with certainty stays apart. The frame of a component is that
-of the first of its scans in the input.
+of the first of its scans in the input, unless a known pose or a reference scan gives another one.
 
 \tparam Kernel_ the kernel of the transformations
 */
@@ -72,6 +72,9 @@ public:
     /// component's frame, and the displacement in the unit of the coordinates. It is relative to the scan whose frame
     /// it is, and tells the scatter that independent noise of the samples makes.
     Covariance covariance{};
+
+    /// Why its known pose was dropped where that was no more than a hint; empty if it was not.
+    std::string lost_hint;
   };
 
   /// A pair of scans that was registered.

@@ -20,6 +20,7 @@
 #include <CGAL/Crude_registration/internal/assembly/assemble_reduced_scans.h>
 #include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
 #include <CGAL/Crude_registration/internal/motion/Refinement.h>
+#include <CGAL/Crude_registration/motion/refine_motion.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 #include <CGAL/Crude_registration/register_scans.h>
 
@@ -29,6 +30,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,7 +77,7 @@ Assembly_result<Kernel> to_assembly_result(const Assembly_outcome& outcome)
   parts.is_interrupted = outcome.is_interrupted;
   for (std::size_t i = 0; i < outcome.poses.size(); ++i)
     parts.scans.push_back({outcome.components[i], to_aff_transformation<Kernel>(outcome.poses[i]), outcome.reasons[i],
-                           outcome.residuals[i], rows_of(outcome.covariances[i])});
+                           outcome.residuals[i], rows_of(outcome.covariances[i]), outcome.lost_hints[i]});
   for (const Assembly_edge& e : outcome.edges)
     parts.edges.push_back(
         {e.source, e.target, e.status, e.reason, e.registration, e.confidence, e.overlap, e.residual});
@@ -84,22 +86,111 @@ Assembly_result<Kernel> to_assembly_result(const Assembly_outcome& outcome)
   return Result(std::move(parts));
 }
 
-// `registration`: a Pair_registration or a Round_registration.
+// What the parameters of that kind say of n scans. \throws std::invalid_argument
+template <class NamedParameters>
+Known_poses known_poses_parameters(const NamedParameters& np, std::size_t n)
+{
+  const auto fail = [](const std::string& text) { throw std::invalid_argument("assemble_scans: " + text); };
+  Known_poses known;
+  if constexpr (is_given<NamedParameters, internal_np::known_poses_t>) {
+    for (const auto& pose : CGAL::parameters::get_parameter_reference(cgal_parameters(np), internal_np::known_poses)) {
+      known.poses.emplace_back();
+      if (pose)
+        known.poses.back() =
+            Known_pose{0, rigid_argument(*pose, "assemble_scans", "one of known_poses"), to_rigid_motion(*pose)};
+    }
+    if (known.poses.size() != n) fail("known_poses has to have an entry for each scan");
+    known.are_fixed = parameter(np, internal_np::known_poses_are_fixed, false);
+    if constexpr (is_given<NamedParameters, internal_np::known_groups_t>) {
+      std::size_t i = 0;
+      for (const auto group :
+           CGAL::parameters::get_parameter_reference(cgal_parameters(np), internal_np::known_groups)) {
+        if (i < n && known.poses[i]) known.poses[i]->group = std::size_t(group);
+        ++i;
+      }
+      if (i != n) fail("known_groups has to have an entry for each scan");
+    }
+  }
+  if constexpr (is_given<NamedParameters, internal_np::reference_scan_t>) {
+    known.reference = std::size_t(parameter(np, internal_np::reference_scan, 0));
+    if (*known.reference >= n) fail("there is no scan reference_scan");
+  }
+  return known;
+}
+
+// With the answers that are kept in a folder, and kept there where they are new. Without a folder, where its name is
+// empty, as it was.
+template <class Registration>
+Registration kept_in(const std::string& folder, const Registration& registration)
+{
+  if (folder.empty()) return registration;
+  return [store = Pair_store(folder), registration](const Reduced_scan& source, const Reduced_scan& target,
+                                                    Run_control& task) {
+    const std::string file = store.file(hash_of(source), hash_of(target));
+    if (const auto answer = Pair_store::read(file)) return *answer;
+    Pair_answer answer = registration(source, target, task);
+    if (!task.is_stopped()) Pair_store::write(file, answer);
+    return answer;
+  };
+}
+
+// Registers the pairs of `scans`, which are referred to, by a generator; the answers are kept in `folder`, unless its
+// name is empty.
+template <class ScanRange, class Generator>
+Pair_registration pair_registration(const ScanRange& scans, const Generator& generator, const std::string& folder)
+{
+  using Difference = typename std::iterator_traits<decltype(std::begin(scans))>::difference_type;
+  const auto first = std::begin(scans);
+  const Pair_registration register_now = [first, generator](std::size_t i, std::size_t j, Run_control& task) {
+    return to_pair_answer(
+        register_scans<CGAL::Sequential_tag>(first[Difference(i)], first[Difference(j)], generator, task));
+  };
+  if (folder.empty()) return register_now;
+  std::vector<Content_hash> hashes;
+  for (const auto& scan : scans) hashes.push_back(content_hash(scan));
+  return [store = Pair_store(folder), hashes, register_now](std::size_t i, std::size_t j, Run_control& task) {
+    const std::string file = store.file(hashes[i], hashes[j]);
+    if (const auto answer = Pair_store::read(file)) return *answer;
+    Pair_answer answer = register_now(i, j, task);
+    if (!task.is_stopped()) Pair_store::write(file, answer);
+    return answer;
+  };
+}
+
+// `registration`: a Pair_registration or a Round_registration. `folder`: keeps what is registered of several scans.
 template <class ConcurrencyTag, class Kernel, class Registration>
 Assembly_result<Kernel> assemble(const std::vector<const Reduced_scan*>& scans, const Registration& registration,
-                                 Run_control& control)
+                                 Run_control& control, const Known_poses& known = {}, const std::string& folder = {})
 {
   // What is fused of many scans is no Scan: it is registered by the default, whatever the generator.
-  const Surface_registration register_surfaces = [](const Reduced_scan& source, const Reduced_scan& target,
-                                                    Run_control& task) {
+  const Surface_registration register_now = [](const Reduced_scan& source, const Reduced_scan& target,
+                                               Run_control& task) {
     const auto make_candidates = [](const Reduced_scan& a, const Reduced_scan& b) {
       return Oriented_pair_candidates().candidates(a, b, Execution::SEQUENTIAL);
     };
     return to_pair_answer(
         to_result<Kernel>(register_reduced_scans(source, target, make_candidates, Execution::SEQUENTIAL, task)));
   };
-  return to_assembly_result<Kernel>(
-      assemble_reduced_scans(scans, registration, register_surfaces, execution<ConcurrencyTag>(), control));
+  return to_assembly_result<Kernel>(assemble_reduced_scans(scans, registration, kept_in(folder, register_now),
+                                                           execution<ConcurrencyTag>(), control, known));
+}
+
+// assemble_scans(), with the pairs of each round registered by what need not be this process; where `registration` is
+// empty it is.
+template <class ConcurrencyTag, class ScanRange, class NamedParameters>
+auto assemble_scans_by(const Round_registration& registration, const ScanRange& scans, const NamedParameters& np)
+{
+  using Kernel = typename std::iterator_traits<decltype(std::begin(scans))>::value_type::Kernel;
+  const auto generator = candidate_generator(np, "assemble_scans");
+  Run_control control(visitor_parameter(np), time_budget_parameter(np, "assemble_scans"));
+  std::vector<const Reduced_scan*> reduced;
+  for (const auto& scan : scans) reduced.push_back(&scan.reduced());
+  const Known_poses known = known_poses_parameters(np, reduced.size());
+  std::string folder;
+  if constexpr (is_given<NamedParameters, internal_np::store_t>)
+    folder = parameter(np, internal_np::store, std::string());
+  if (registration) return assemble<ConcurrencyTag, Kernel>(reduced, registration, control, known, folder);
+  return assemble<ConcurrencyTag, Kernel>(reduced, pair_registration(scans, generator, folder), control, known, folder);
 }
 
 // The points of one scan against the surfaces of others, in a frame of the assembly.
@@ -156,9 +247,34 @@ back as components of its own.
     \cgalParamType{a model of `CandidateGenerator`}
     \cgalParamDefault{`Oriented_pair_candidates()`}
   \cgalParamNEnd
+  \cgalParamNBegin{known_poses}
+    \cgalParamDescription{poses that are known beforehand, of some scans or of all}
+    \cgalParamType{a range with a `std::optional<Aff_transformation_3>` for each scan, rigid to within a thousandth}
+    \cgalParamDefault{none is known}
+    \cgalParamExtra{They are hints: pairs that overlap by them are registered first, and a hint decides between motions
+                    that a pair leaves open. No scan is connected by a hint alone, and a wrong one does no harm but to
+                    the time: it is dropped, and `Assembly_result::Placed_scan::lost_hint` says so.}
+  \cgalParamNEnd
+  \cgalParamNBegin{known_groups}
+    \cgalParamDescription{what frame the known pose of each scan is in: those of one group are in one frame}
+    \cgalParamType{a range with a `std::size_t` for each scan}
+    \cgalParamDefault{all are in one frame}
+  \cgalParamNEnd
+  \cgalParamNBegin{known_poses_are_fixed}
+    \cgalParamDescription{whether the known poses are no hints but stay as they are}
+    \cgalParamType{`bool`}
+    \cgalParamDefault{`false`}
+    \cgalParamExtra{No pair of a group is registered. The frame of a component that has such scans is that of the known
+                    pose of the first of them.}
+  \cgalParamNEnd
+  \cgalParamNBegin{reference_scan}
+    \cgalParamDescription{the place of the scan whose frame is that of its component, unless a fixed pose gives it}
+    \cgalParamType{`std::size_t`}
+    \cgalParamDefault{the first scan of each component}
+  \cgalParamNEnd
   \cgalParamNBegin{store}
     \cgalParamDescription{a folder, made if missing, that keeps a file for each pair that was registered: a run that was
-                          ended, or has more scans, registers none of them again}
+                          ended, or has more scans, registers none of them again; none where it is empty}
     \cgalParamType{`std::string`}
     \cgalParamDefault{none}
     \cgalParamExtra{Files are found by the contents of the two scans, and written whole or not at all; several runs may
@@ -189,33 +305,7 @@ template <class ConcurrencyTag = CGAL::Sequential_tag, class ScanRange,
           class NamedParameters = parameters::Default_named_parameters>
 auto assemble_scans(const ScanRange& scans, const NamedParameters& np = parameters::default_values())
 {
-  using Kernel = typename std::iterator_traits<decltype(std::begin(scans))>::value_type::Kernel;
-  const auto generator = internal::candidate_generator(np, "assemble_scans");
-  internal::Run_control control(internal::visitor_parameter(np), internal::time_budget_parameter(np, "assemble_scans"));
-  std::vector<const internal::Reduced_scan*> reduced;
-  for (const auto& scan : scans) reduced.push_back(&scan.reduced());
-  const auto first = std::begin(scans);
-  const auto at = [&](std::size_t i) -> const Scan<Kernel>& {
-    return first[static_cast<typename std::iterator_traits<decltype(std::begin(scans))>::difference_type>(i)];
-  };
-  const internal::Pair_registration register_now = [&](std::size_t i, std::size_t j, internal::Run_control& task) {
-    return internal::to_pair_answer(internal::register_scans<CGAL::Sequential_tag>(at(i), at(j), generator, task));
-  };
-  internal::Pair_registration register_pair = register_now;
-  if constexpr (internal::is_given<NamedParameters, internal_np::store_t>) {
-    const internal::Pair_store store(internal::parameter(np, internal_np::store, std::string()));
-    std::vector<internal::Content_hash> hashes;
-    hashes.reserve(reduced.size());
-    for (const auto& scan : scans) hashes.push_back(internal::content_hash(scan));
-    register_pair = [store, hashes, &register_now](std::size_t i, std::size_t j, internal::Run_control& task) {
-      const std::string file = store.file(hashes[i], hashes[j]);
-      if (const auto answer = internal::Pair_store::read(file)) return *answer;
-      internal::Pair_answer answer = register_now(i, j, task);
-      if (!task.is_stopped()) internal::Pair_store::write(file, answer);
-      return answer;
-    };
-  }
-  return internal::assemble<ConcurrencyTag, Kernel>(reduced, register_pair, control);
+  return internal::assemble_scans_by<ConcurrencyTag>({}, scans, np);
 }
 
 /*!

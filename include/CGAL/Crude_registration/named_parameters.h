@@ -29,11 +29,15 @@
   ADD(candidates)                                                                                                      \
   ADD(cell_size)                                                                                                       \
   ADD(curvature_map)                                                                                                   \
+  ADD(known_groups)                                                                                                    \
+  ADD(known_poses)                                                                                                     \
+  ADD(known_poses_are_fixed)                                                                                           \
   ADD(maximum_distance)                                                                                                \
   ADD(maximum_edge_ratio)                                                                                              \
   ADD(maximum_extent)                                                                                                  \
   ADD(minimum_extent)                                                                                                  \
   ADD(number_of_vertices)                                                                                              \
+  ADD(reference_scan)                                                                                                  \
   ADD(sampling_distance)                                                                                               \
   ADD(store)                                                                                                           \
   ADD(time_budget)                                                                                                     \

@@ -33,6 +33,8 @@
 #include <locale>
 #include <optional>
 #include <ostream>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -188,12 +190,30 @@ public:
 
 private:
   // To be raised with whatever changes the answer of a registration.
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr const char* head = "crude_registration pair";
   static constexpr std::size_t most_motions = 1000;
 
   std::string m_folder;
 };
+
+// An answer as another process is told it, to the last bit.
+inline std::string to_bytes(const Pair_answer& answer)
+{
+  std::ostringstream out;
+  Pair_store::write(out, answer);
+  return out.str();
+}
+
+// \throws std::runtime_error if it is not whole; where a run was stopped there is none, and an empty answer is one.
+inline Pair_answer answer_of_bytes(const std::string& bytes)
+{
+  if (bytes.empty()) return {};
+  std::istringstream in(bytes);
+  const std::optional<Pair_answer> answer = Pair_store::read(in);
+  if (!answer) throw std::runtime_error("the answer of a pair is not whole");
+  return *answer;
+}
 
 } // namespace internal
 } // namespace Crude_registration

@@ -71,7 +71,9 @@ inline std::vector<std::size_t> bridges(std::size_t n, const std::vector<Scan_pa
 class Pair_plan
 {
 public:
-  explicit Pair_plan(const Placed_scans& placed) : m_placed(placed), m_affinities(placed.size() * placed.size(), 0)
+  // `known`: in the order of the scans, of their own frames.
+  Pair_plan(const Placed_scans& placed, const Known_poses& known)
+      : m_placed(placed), m_known(known), m_affinities(placed.size() * placed.size(), 0)
   {
     const std::size_t n = placed.size();
     std::vector<double> extents;
@@ -81,7 +83,7 @@ public:
     for (std::size_t i = 0; i < n; ++i) histograms.emplace_back(placed.scan(i), extents[n / 2]);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j)
-        m_affinities[i * n + j] = m_affinities[j * n + i] = histograms[i].similarity(histograms[j]);
+        m_affinities[i * n + j] = m_affinities[j * n + i] = histograms[i].similarity(histograms[j]) + hinted(i, j);
   }
 
   // No more are tried in all.
@@ -99,7 +101,7 @@ public:
     for (std::size_t i = 0; i < m_placed.size(); ++i) {
       std::vector<std::size_t> others;
       for (std::size_t j = 0; j < m_placed.size(); ++j)
-        if (j != i) others.push_back(j);
+        if (j != i && !is_known({i, j})) others.push_back(j);
       std::stable_sort(others.begin(), others.end(),
                        [&](std::size_t a, std::size_t b) { return affinity(i, a) > affinity(i, b); });
       for (std::size_t k = 0; k < (std::min)(partners, others.size()); ++k)
@@ -119,6 +121,19 @@ public:
   }
 
 private:
+  // Where hints say how two scans lie, what overlaps comes first, and what does not last.
+  float hinted(std::size_t i, std::size_t j) const
+  {
+    if (m_known.are_fixed || !m_known.are_related(i, j)) return 0;
+    const Rigid_motion motion = m_known.of(j)->motion.inverse() * m_known.of(i)->motion;
+    const double overlap =
+        (std::max)(m_placed.meeting(i, j, motion).overlap, m_placed.meeting(j, i, motion.inverse()).overlap);
+    return overlap > 0 ? 1 + float(overlap) : -1;
+  }
+
+  // Nothing is asked of what is known.
+  bool is_known(const Scan_pair& s) const { return m_known.are_fixed && m_known.are_related(s.first, s.second); }
+
   float affinity(std::size_t i, std::size_t j) const { return m_affinities[i * m_placed.size() + j]; }
 
   std::vector<Scan_pair> taken(const std::set<Scan_pair>& round)
@@ -203,7 +218,7 @@ private:
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 1; j < n; ++j) {
           if (is_there[i] == is_there[j] || !parts.are_together(i, edges[b].first) ||
-              !parts.are_together(j, edges[b].first) || m_tried.count({i, j}) != 0)
+              !parts.are_together(j, edges[b].first) || m_tried.count({i, j}) != 0 || is_known({i, j}))
             continue;
           const Rigid_motion motion = parts.poses()[j].inverse() * parts.poses()[i];
           const double overlap =
@@ -219,6 +234,7 @@ private:
   }
 
   const Placed_scans& m_placed;
+  const Known_poses& m_known;
   std::vector<float> m_affinities;
   std::set<Scan_pair> m_tried;
   std::map<Scan_pair, std::size_t> m_closing;

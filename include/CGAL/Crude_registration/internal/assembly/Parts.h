@@ -14,6 +14,8 @@
 
 // Joins scans to parts of a model by the motions that their pairs may have, the best supported first.
 
+#include <CGAL/Crude_registration/internal/assembly/Assembly_coefficients.h>
+#include <CGAL/Crude_registration/internal/assembly/Known_poses.h>
 #include <CGAL/Crude_registration/internal/assembly/Pair_answer.h>
 #include <CGAL/Crude_registration/internal/assembly/Placed_scans.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
@@ -24,6 +26,7 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -73,15 +76,21 @@ constexpr double trusted_join = 0.9;
 class Parts
 {
 public:
-  Parts(const Placed_scans& placed, std::vector<Tried_pair> pairs, Trust trust)
-      : m_placed(placed), m_pairs(std::move(pairs)), m_trust(trust), m_poses(placed.size()), m_part_of(placed.size())
+  // `known`: in the order of the scans, of their own frames.
+  Parts(const Placed_scans& placed, std::vector<Tried_pair> pairs, Trust trust, const Known_poses& known,
+        const Assembly_coefficients& coefficients = {})
+      : m_placed(placed), m_pairs(std::move(pairs)), m_trust(trust), m_known(known), m_coefficients(coefficients),
+        m_poses(placed.size()), m_part_of(placed.size())
   {
     for (std::size_t i = 0; i < placed.size(); ++i) {
       m_parts.push_back({{i}});
       m_part_of[i] = i;
     }
-    for (std::size_t q = 0; q < m_pairs.size(); ++q)
-      if (!m_pairs[q].answer.motions.empty()) m_between[{m_pairs[q].scans.first, m_pairs[q].scans.second}].push_back(q);
+    if (known.are_fixed) put_together_what_is_fixed();
+    for (std::size_t q = 0; q < m_pairs.size(); ++q) {
+      const std::size_t a = m_part_of[m_pairs[q].scans.first], b = m_part_of[m_pairs[q].scans.second];
+      if (a != b && !m_pairs[q].answer.motions.empty()) m_between[{(std::min)(a, b), (std::max)(a, b)}].push_back(q);
+    }
     for (const auto& entry : m_between) add_join(entry.first.first, entry.first.second);
     while (join_best()) {
     }
@@ -123,18 +132,49 @@ public:
   }
 
 private:
-  static constexpr double chance = 0.02;     // that motions agree by chance
-  static constexpr double least_rest = 0.02; // no pair is more certain than this
-
   using Key = std::pair<std::size_t, std::size_t>; // parts, the smaller number first
 
-  double probability(const Ranked_motion& m) const { return (std::min)(m.probability, 1 - least_rest); }
+  void put_together_what_is_fixed()
+  {
+    std::map<std::size_t, std::size_t> part_of_group;
+    for (std::size_t i = 0; i < m_placed.size(); ++i) {
+      const Known_pose* pose = m_known.of(i);
+      if (!pose) continue;
+      m_poses[i] = pose->motion;
+      const std::size_t part = part_of_group.emplace(pose->group, i).first->second;
+      if (part == i) continue;
+      m_parts[part].scans.push_back(i);
+      m_parts[i].scans.clear();
+      m_part_of[i] = part;
+    }
+  }
+
+  // Hints say of two parts what a pair says that is as likely right as not, once for all of their scans: this is what
+  // it makes of the likelihood of a hypothesis; nullopt where there is no hint.
+  std::optional<double> vote_of_hints(const Join& join) const
+  {
+    constexpr double even = 0.5;
+    bool is_hinted = false;
+    for (const std::size_t a : m_parts[join.first].scans)
+      for (const std::size_t b : m_parts[join.second].scans) {
+        if (!m_known.are_related(a, b)) continue;
+        is_hinted = true;
+        const Rigid_motion hinted = m_known.of(a)->motion.inverse() * m_known.of(b)->motion;
+        if (m_placed.displacement(b, hinted, m_poses[a].inverse() * join.motion * m_poses[b]) <=
+            hint_tolerance * m_placed.deviation(b))
+          return even / m_coefficients.agreeing;
+      }
+    if (!is_hinted) return std::nullopt;
+    return even;
+  }
+
+  double probability(const Ranked_motion& m) const { return (std::min)(m.probability, 1 - m_coefficients.wrong); }
 
   double rest(const Pair_answer& answer) const
   {
     double sum = 0;
     for (const Ranked_motion& m : answer.motions) sum += m.probability;
-    return (std::max)(1 - sum, least_rest);
+    return (std::max)(1 - sum, m_coefficients.wrong);
   }
 
   // The motion of the parts' frames, first from second, that a motion of a pair between them means.
@@ -156,6 +196,7 @@ private:
   // The likelihood of a hypothesis by the votes of all pairs.
   double vote(const std::vector<std::size_t>& pairs, Join& join) const
   {
+    const double chance = m_coefficients.agreeing;
     double likelihood = chance;
     join.agreeing = join.certain = join.contradicting = 0;
     join.overlap = 0;
@@ -207,6 +248,7 @@ private:
     if (pairs == m_between.end()) return;
     double none = 1;
     for (const std::size_t q : pairs->second) none *= rest(m_pairs[q].answer);
+    bool is_hinted = false;
     std::vector<std::pair<double, Join>> hypotheses;
     for (const std::size_t q : pairs->second)
       for (const Ranked_motion& m : m_pairs[q].answer.motions) {
@@ -215,8 +257,11 @@ private:
         join.second = second;
         join.motion = between_parts(m_pairs[q], m.motion, first);
         const double likelihood = vote(pairs->second, join);
-        hypotheses.emplace_back(likelihood, join);
+        const std::optional<double> hints = m_known.are_fixed ? std::nullopt : vote_of_hints(join);
+        is_hinted = hints.has_value();
+        hypotheses.emplace_back(likelihood * hints.value_or(1), join);
       }
+    if (is_hinted) none *= 0.5;
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     // Free space is looked at for the best ones only.
@@ -233,12 +278,10 @@ private:
       distinct.push_back(h);
     }
     double sum = none;
-    // What one of ten probes in free space makes of the odds, as the judgement of a pair has it; some are there by
-    // chance, at the rims of what was seen.
-    constexpr double free_space_evidence = 45, by_chance = 0.03;
     for (auto& h : distinct) {
       h.second.violations = violations(h.second);
-      h.first *= std::exp(-free_space_evidence * (std::max)(0., h.second.violations - by_chance));
+      h.first *=
+          std::exp(-m_coefficients.free_space * (std::max)(0., h.second.violations - m_coefficients.at_the_rims));
       sum += h.first;
     }
     const auto best = std::max_element(distinct.begin(), distinct.end(),
@@ -292,6 +335,8 @@ private:
   const Placed_scans& m_placed;
   const std::vector<Tried_pair> m_pairs;
   const Trust m_trust;
+  const Known_poses& m_known;
+  const Assembly_coefficients m_coefficients;
   std::vector<Rigid_motion> m_poses;
   std::vector<std::size_t> m_part_of;
   std::vector<Part> m_parts;

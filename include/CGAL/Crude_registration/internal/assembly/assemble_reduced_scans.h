@@ -15,6 +15,7 @@
 // Scans without an order to one pose each, for scans that are reduced.
 
 #include <CGAL/Crude_registration/Assembly_status.h>
+#include <CGAL/Crude_registration/internal/assembly/Known_poses.h>
 #include <CGAL/Crude_registration/internal/assembly/Pair_answer.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
@@ -73,7 +74,8 @@ struct Assembly_outcome
   std::vector<Rigid_motion> poses; // model from input
   std::vector<std::size_t> components;
   std::size_t number_of_components = 0;
-  std::vector<std::string> reasons; // why a scan is alone
+  std::vector<std::string> reasons;    // why a scan is alone
+  std::vector<std::string> lost_hints; // why a hint of its pose was dropped
   std::vector<double> residuals;
   std::vector<Matrix_6> covariances;
   std::vector<Assembly_edge> edges;
@@ -82,16 +84,17 @@ struct Assembly_outcome
   bool is_interrupted = false;
 };
 
+// `known`: of the scans in the frames of the input.
 Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
                                         const Pair_registration& register_pair,
                                         const Surface_registration& register_surfaces, Execution execution,
-                                        Run_control& control);
+                                        Run_control& control, const Known_poses& known = {});
 
 // The same, with the pairs of each round registered by what need not be this process.
 Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
                                         const Round_registration& register_round,
                                         const Surface_registration& register_surfaces, Execution execution,
-                                        Run_control& control);
+                                        Run_control& control, const Known_poses& known = {});
 
 } // namespace internal
 } // namespace Crude_registration

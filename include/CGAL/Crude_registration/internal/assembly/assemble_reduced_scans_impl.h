@@ -57,9 +57,11 @@ class Assembler
 {
 public:
   Assembler(const std::vector<const Reduced_scan*>& scans, const Round_registration& register_pairs,
-            const Surface_registration& register_surfaces, Execution execution, Run_control& control)
+            const Surface_registration& register_surfaces, Execution execution, Run_control& control,
+            const Known_poses& known)
       : m_scans(scans), m_register_pairs(register_pairs), m_register_surfaces(register_surfaces),
-        m_execution(execution), m_control(control), m_order(canonical_order(scans)), m_placed(in_order(scans, m_order))
+        m_execution(execution), m_control(control), m_order(canonical_order(scans)), m_placed(in_order(scans, m_order)),
+        m_known(known), m_own_known(in_own_frames(known))
   {}
 
   Assembly_outcome operator()()
@@ -72,7 +74,7 @@ public:
     std::optional<Pair_plan> plan;
     {
       const Stage_timer timer(predicting);
-      plan.emplace(m_placed);
+      plan.emplace(m_placed, m_own_known);
       predicting.count = m_scans.size() * (m_scans.size() - 1) / 2;
     }
     // First what pairs say that are certain alone, as long as there are others to try; then what several say together;
@@ -81,7 +83,7 @@ public:
     const auto join = [&](Trust trust) {
       const Stage_timer timer(joining);
       ++joining.count;
-      parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs), trust);
+      parts.emplace(m_placed, with_loop_evidence(m_placed, m_pairs), trust, m_own_known);
     };
     Trust trust = Trust::CERTAIN_PAIRS;
     join(trust);
@@ -121,6 +123,17 @@ private:
     result.reserve(order.size());
     for (const std::size_t i : order) result.push_back(scans[i]);
     return result;
+  }
+
+  // The same in the canonical order, of the scans' own frames.
+  Known_poses in_own_frames(const Known_poses& known) const
+  {
+    Known_poses own = known;
+    for (std::size_t k = 0; k < own.poses.size(); ++k) {
+      own.poses[k] = known.poses[m_order[k]];
+      if (own.poses[k]) own.poses[k]->motion = own.poses[k]->motion * m_placed.scan(k).own_from_input.inverse();
+    }
+    return own;
   }
 
   // False where the run was stopped: the answers of a round that was not done to its end are left out.
@@ -195,7 +208,8 @@ private:
     Tried_pair pair{{part.scans.front(), other.scans.front()}, std::move(answer), true};
     // The judgement of a pair knows no surface of this size, around which more fits by chance: it is not enough alone;
     // the pair of two scans that has the same motion among its own makes it so.
-    constexpr double most_certain = 0.85;
+    // The odds are half of those by which parts are joined.
+    constexpr double most_certain = trusted_join / (2 - trusted_join);
     double sum = 0;
     for (const Ranked_motion& m : pair.answer.motions) sum += m.probability;
     if (sum > most_certain)
@@ -242,6 +256,7 @@ private:
     outcome.poses.resize(n);
     outcome.components.resize(n);
     outcome.reasons.resize(n);
+    outcome.lost_hints.resize(n);
     outcome.residuals.resize(n, 0);
     outcome.covariances.resize(n, Matrix_6::Zero());
     // Components by their size, then by the first of their scans in the input, whose frame is that of the component.
@@ -273,9 +288,11 @@ private:
     });
     for (const std::vector<std::size_t>& component : components)
       if (component.size() == 1) outcome.reasons[component.front()] = reason_alone(component.front(), outcome);
+    const std::vector<std::string> lost = lost_hints(m_placed, parts, m_own_known);
+    for (std::size_t i = 0; i < n; ++i) outcome.lost_hints[m_order[i]] = lost[i];
   }
 
-  // The refined poses of a component, in the frame of the first of its scans; the number of iterations.
+  // The refined poses of a component, in the frame of its anchor; the number of iterations.
   std::size_t place_component(const std::vector<std::size_t>& component, std::size_t number,
                               const std::vector<std::size_t>& place, const std::vector<Rigid_motion>& poses,
                               Assembly_outcome& outcome) const
@@ -286,16 +303,36 @@ private:
       places.push_back(place[i]);
       initial.push_back(poses[place[i]]);
     }
-    const Relaxation relaxed = relax_poses(m_placed, places, initial, m_execution, m_control);
-    const std::size_t first = component.front();
-    const Rigid_motion input_from_part = (relaxed.poses.front() * m_scans[first]->own_from_input).inverse();
-    const Matrix_6 to_input = adjoint(input_from_part);
+    const std::size_t anchor = m_known.anchor(component);
+    const auto is_fixed_to = [&](std::size_t i, std::size_t j) {
+      return i == j || (m_known.are_fixed && m_known.are_related(i, j));
+    };
+    std::vector<std::size_t> bodies;
+    std::size_t last = 0; // body
+    for (std::size_t k = 0; k < component.size(); ++k) {
+      const auto other = std::find_if(component.begin(), component.begin() + std::ptrdiff_t(k),
+                                      [&](std::size_t i) { return is_fixed_to(i, component[k]); });
+      if (is_fixed_to(anchor, component[k])) bodies.push_back(0);
+      else if (other != component.begin() + std::ptrdiff_t(k))
+        bodies.push_back(bodies[std::size_t(other - component.begin())]);
+      else bodies.push_back(++last);
+    }
+    const Relaxation relaxed = relax_poses(m_placed, places, initial, bodies, m_execution, m_control);
+    const auto at = std::size_t(std::find(component.begin(), component.end(), anchor) - component.begin());
+    const auto fixed_pose = [&](std::size_t i) { // in the frame of the component, of what is fixed to the anchor
+      return m_known.are_fixed && m_known.of(i) ? *m_known.of(i) : Known_pose();
+    };
+    const Rigid_motion model_from_part =
+        fixed_pose(anchor).motion * (relaxed.poses[at] * m_scans[anchor]->own_from_input).inverse();
+    const Matrix_6 to_model = adjoint(model_from_part);
     for (std::size_t k = 0; k < component.size(); ++k) {
       const std::size_t i = component[k];
       outcome.components[i] = number;
-      outcome.poses[i] = i == first ? Rigid_motion() : input_from_part * relaxed.poses[k] * m_scans[i]->own_from_input;
+      const Known_pose fixed = fixed_pose(i);
+      outcome.poses[i] = bodies[k] == 0 ? fixed.given.value_or(fixed.motion)
+                                        : model_from_part * relaxed.poses[k] * m_scans[i]->own_from_input;
       outcome.residuals[i] = relaxed.residuals[k];
-      const Matrix_6 covariance = to_input * relaxed.covariances[k] * to_input.transpose();
+      const Matrix_6 covariance = to_model * relaxed.covariances[k] * to_model.transpose();
       outcome.covariances[i] = 0.5 * (covariance + covariance.transpose());
     }
     for (const Relaxed_pair& p : relaxed.pairs)
@@ -310,6 +347,8 @@ private:
   Run_control& m_control;
   const std::vector<std::size_t> m_order; // the place in the input of each in the canonical order
   const Placed_scans m_placed;            // in the canonical order
+  const Known_poses& m_known;
+  const Known_poses m_own_known; // the same in the canonical order, of own frames
   std::vector<Tried_pair> m_pairs;
   std::set<std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> m_fused; // parts that were tried
 };
@@ -317,15 +356,17 @@ private:
 CGAL_CRUDE_REGISTRATION_INLINE Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
                                                                        const Round_registration& register_round,
                                                                        const Surface_registration& register_surfaces,
-                                                                       Execution execution, Run_control& control)
+                                                                       Execution execution, Run_control& control,
+                                                                       const Known_poses& known)
 {
-  return Assembler(scans, register_round, register_surfaces, execution, control)();
+  return Assembler(scans, register_round, register_surfaces, execution, control, known)();
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE Assembly_outcome assemble_reduced_scans(const std::vector<const Reduced_scan*>& scans,
                                                                        const Pair_registration& register_pair,
                                                                        const Surface_registration& register_surfaces,
-                                                                       Execution execution, Run_control& control)
+                                                                       Execution execution, Run_control& control,
+                                                                       const Known_poses& known)
 {
   const Round_registration register_round = [&](const std::vector<Input_pair>& pairs, Run_control& run_control) {
     std::vector<Pair_answer> answers(pairs.size());
@@ -334,7 +375,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Assembly_outcome assemble_reduced_scans(const std
     });
     return answers;
   };
-  return assemble_reduced_scans(scans, register_round, register_surfaces, execution, control);
+  return assemble_reduced_scans(scans, register_round, register_surfaces, execution, control, known);
 }
 
 } // namespace internal

@@ -20,7 +20,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -88,6 +90,37 @@ inline std::string reason_alone(std::size_t scan, const Assembly_outcome& outcom
   if (doubtful)
     return "no pair is certain enough: the best of " + std::to_string(best) + " that may fit: " + doubtful->reason;
   return "no overlap found with any of the " + std::to_string(tried) + " scans tried";
+}
+
+// Of each scan why the hint of its pose was dropped; empty where it was not, or nothing tells. Hints of one group that
+// lie in one part have one frame: the one that most of them say. `known`: of own frames.
+inline std::vector<std::string> lost_hints(const Placed_scans& placed, const Parts& parts, const Known_poses& known)
+{
+  std::vector<std::string> texts(placed.size());
+  if (known.are_fixed) return texts;
+  std::map<std::tuple<std::size_t, std::size_t>, std::vector<std::size_t>> together; // by part and group
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    if (known.of(i)) together[{parts.part_of(i), known.of(i)->group}].push_back(i);
+  for (const auto& entry : together) {
+    const std::vector<std::size_t>& scans = entry.second;
+    if (scans.size() < 2) continue;
+    std::vector<std::size_t> most;
+    for (const std::size_t i : scans) {
+      const Rigid_motion part_from_group = parts.poses()[i] * known.of(i)->motion.inverse();
+      std::vector<std::size_t> agreeing;
+      for (const std::size_t j : scans)
+        if (placed.displacement(j, part_from_group * known.of(j)->motion, parts.poses()[j]) <=
+            hint_tolerance * placed.deviation(j))
+          agreeing.push_back(j);
+      if (agreeing.size() > most.size()) most = agreeing;
+    }
+    for (const std::size_t i : scans) {
+      if (most.size() < 2) texts[i] = "it contradicts the pairs, and no other known pose tells which of them is wrong";
+      else if (!std::binary_search(most.begin(), most.end(), i))
+        texts[i] = "it contradicts the pairs, which " + std::to_string(most.size()) + " other known poses agree with";
+    }
+  }
+  return texts;
 }
 
 } // namespace internal

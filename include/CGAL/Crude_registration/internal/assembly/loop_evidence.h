@@ -34,11 +34,13 @@ namespace internal {
 // if it is wrong; the ratio of the two, or of what is left of both, multiplies its odds against the pair's other
 // motions.
 // That nothing closes a loop speaks against a motion only where the two others are certain alone.
-inline std::vector<Tried_pair> with_loop_evidence(const Placed_scans& placed, const std::vector<Tried_pair>& pairs)
+inline std::vector<Tried_pair> with_loop_evidence(const Placed_scans& placed, const std::vector<Tried_pair>& pairs,
+                                                  const Assembly_coefficients& coefficients = {})
 {
-  constexpr double chance = 0.05; // loops add up what is left of two motions: more close than of two pairs agree
-  constexpr double least = 0.02;  // less can say nothing
-  struct Way                      // from one scan to another by a third one
+  const double chance = coefficients.closing;
+  // What is less than the share that is wrong of what is certain says nothing.
+  const double least = coefficients.wrong;
+  struct Way // from one scan to another by a third one
   {
     Rigid_motion motion;
     double probability;

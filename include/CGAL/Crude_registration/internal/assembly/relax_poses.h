@@ -46,11 +46,13 @@ struct Relaxation
   double objective = 0, initial_objective = 0; // never above that of the start
 };
 
-// `scans`: of the part; `poses`: part from own, of each of them; the first one stays as it is. All poses are moved so
-// that the surfaces come together wherever two of them overlap: the sum over all pairs of the robust point-to-plane
+// `scans`: of the part; `poses`: part from own, of each of them; `bodies`: 0 for those that stay as they are, and a
+// number from 1 on for each of the others, the same for scans that are fixed to each other. All poses are moved so that
+// the surfaces come together wherever two of them overlap: the sum over all pairs of the robust point-to-plane
 // distances becomes least. Where it does not become less, the poses stay.
 Relaxation relax_poses(const Placed_scans& placed, const std::vector<std::size_t>& scans,
-                       const std::vector<Rigid_motion>& poses, Execution execution, Run_control& control);
+                       const std::vector<Rigid_motion>& poses, const std::vector<std::size_t>& bodies,
+                       Execution execution, Run_control& control);
 
 } // namespace internal
 } // namespace Crude_registration

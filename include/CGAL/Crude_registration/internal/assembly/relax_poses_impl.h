@@ -35,9 +35,10 @@ namespace internal {
 class Pose_relaxation
 {
 public:
-  Pose_relaxation(const Placed_scans& placed, const std::vector<std::size_t>& scans, Execution execution,
-                  Run_control& control)
-      : m_placed(placed), m_scans(scans), m_execution(execution), m_control(control)
+  Pose_relaxation(const Placed_scans& placed, const std::vector<std::size_t>& scans,
+                  const std::vector<std::size_t>& bodies, Execution execution, Run_control& control)
+      : m_placed(placed), m_scans(scans), m_bodies(bodies), m_unknowns(*std::max_element(bodies.begin(), bodies.end())),
+        m_execution(execution), m_control(control)
   {}
 
   Relaxation operator()(const std::vector<Rigid_motion>& initial)
@@ -51,7 +52,7 @@ public:
     find_sigmas();
     for (Pair& pair : m_pairs) pair.fixed_sigma = pair.sigma;
     result.objective = result.initial_objective = objective(initial);
-    if (m_scans.size() > 1) {
+    if (m_unknowns > 0) {
       // The coarse surfels reach further, where the poses have drifted; what was near enough may do without.
       for (const bool with_coarse : {true, false}) {
         std::vector<Rigid_motion> poses = initial;
@@ -242,10 +243,10 @@ private:
 
   using Sparse = Eigen::SparseMatrix<double>;
 
-  // The equations of all scans but the first, which is fixed; what nothing determines stays.
+  // The equations of all bodies but the first, which is fixed; what nothing determines stays.
   Sparse normal_matrix(Eigen::VectorXd& right) const
   {
-    const std::size_t n = m_scans.size() - 1;
+    const std::size_t n = m_unknowns;
     right = Eigen::VectorXd::Zero(Eigen::Index(6 * n));
     std::vector<Eigen::Triplet<double>> entries;
     const auto add = [&](std::size_t i, std::size_t j, const Matrix_6& block) {
@@ -255,12 +256,14 @@ private:
     };
     for (const Pair& pair : m_pairs) {
       const Matrix_6 block = pair.equations.left.selfadjointView<Eigen::Lower>();
-      add(pair.source, pair.source, block);
-      add(pair.target, pair.target, block);
-      add(pair.source, pair.target, -block);
-      add(pair.target, pair.source, -block);
-      if (pair.source > 0) right.segment<6>(Eigen::Index(6 * (pair.source - 1))) += pair.equations.right;
-      if (pair.target > 0) right.segment<6>(Eigen::Index(6 * (pair.target - 1))) -= pair.equations.right;
+      const std::size_t source = m_bodies[pair.source], target = m_bodies[pair.target];
+      if (source == target) continue;
+      add(source, source, block);
+      add(target, target, block);
+      add(source, target, -block);
+      add(target, source, -block);
+      if (source > 0) right.segment<6>(Eigen::Index(6 * (source - 1))) += pair.equations.right;
+      if (target > 0) right.segment<6>(Eigen::Index(6 * (target - 1))) -= pair.equations.right;
     }
     // As if each scan were known to within its part's size already.
     const double damping = 1 / (m_radius * m_radius);
@@ -292,8 +295,9 @@ private:
       if (solver.info() != Eigen::Success) return iteration;
       const Eigen::VectorXd x = solver.solve(right);
       double largest = 0; // in sampling distances
-      for (std::size_t k = 1; k < poses.size(); ++k) {
-        const Rigid_motion moved = motion_of(x.segment<6>(Eigen::Index(6 * (k - 1)))) * poses[k];
+      for (std::size_t k = 0; k < poses.size(); ++k) {
+        if (m_bodies[k] == 0) continue;
+        const Rigid_motion moved = motion_of(x.segment<6>(Eigen::Index(6 * (m_bodies[k] - 1)))) * poses[k];
         largest = (std::max)(largest, m_placed.displacement(m_scans[k], moved, poses[k]) / scan(k).spacing);
         poses[k] = moved;
       }
@@ -330,7 +334,7 @@ private:
     }
     for (std::size_t k = 0; k < n; ++k)
       if (counts[k] > 0) result.residuals[k] = std::sqrt(squares[k] / counts[k]);
-    if (n < 2) return;
+    if (m_unknowns == 0) return;
     m_aside = own_cell;
     match_all(result.poses);
     find_sigmas();
@@ -344,11 +348,12 @@ private:
     to_origin.topLeftCorner<3, 3>() = Matrix::Identity() / m_radius;
     to_origin.bottomRightCorner<3, 3>() = Matrix::Identity();
     to_origin.bottomLeftCorner<3, 3>() = cross_matrix(m_centre) / m_radius;
-    for (std::size_t k = 1; k < n; ++k) {
-      const Eigen::Index from = Eigen::Index(6 * (k - 1));
+    for (std::size_t k = 0; k < n; ++k) {
+      if (m_bodies[k] == 0) continue;
+      const Eigen::Index from = Eigen::Index(6 * (m_bodies[k] - 1));
       Matrix_6 block;
       for (int c = 0; c < 6; ++c) {
-        const Eigen::VectorXd column = solver.solve(Eigen::VectorXd::Unit(Eigen::Index(6 * (n - 1)), from + c));
+        const Eigen::VectorXd column = solver.solve(Eigen::VectorXd::Unit(Eigen::Index(6 * m_unknowns), from + c));
         block.col(c) = column.segment<6>(from);
       }
       const Matrix_6 covariance = to_origin * block * to_origin.transpose();
@@ -357,7 +362,8 @@ private:
   }
 
   const Placed_scans& m_placed;
-  const std::vector<std::size_t>& m_scans;
+  const std::vector<std::size_t>&m_scans, &m_bodies;
+  const std::size_t m_unknowns; // bodies that move
   const Execution m_execution;
   Run_control& m_control;
   std::vector<Pair> m_pairs;
@@ -369,10 +375,11 @@ private:
 };
 
 CGAL_CRUDE_REGISTRATION_INLINE Relaxation relax_poses(const Placed_scans& placed, const std::vector<std::size_t>& scans,
-                                                      const std::vector<Rigid_motion>& poses, Execution execution,
+                                                      const std::vector<Rigid_motion>& poses,
+                                                      const std::vector<std::size_t>& bodies, Execution execution,
                                                       Run_control& control)
 {
-  return Pose_relaxation(placed, scans, execution, control)(poses);
+  return Pose_relaxation(placed, scans, bodies, execution, control)(poses);
 }
 
 } // namespace internal
