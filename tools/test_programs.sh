@@ -4,7 +4,7 @@
 
 root=$PWD
 # The checks of the sources, of the manual and of other projects have no program that a tool could look into.
-not_programs='^(headers_alone|programs_compile|check_.*|manual_.*|consumers?_.*|layers|install_.*|python_.*|short_fuzzing)$'
+not_programs='^(headers_alone|programs_compile|peers_compile|check_.*|manual_.*|consumers?_.*|layers|install_.*|python_.*|short_fuzzing)$'
 
 build_test_programs() { # [CTEST OPTION...]; sets `programs`
   local name

@@ -10,8 +10,12 @@
 // Every scan is moved by a rigid motion of its own before anything else, and the motion is undone in the written
 // answer, so that no start and no axis helps. Each scan is prepared once. `seconds` is what a pair costs from samples
 // in memory: both preparations and the search; `prepare_seconds` and `pair_seconds` are its parts.
+//
+// Where the file of the pairs has their overlaps and true motions, the answers are counted by overlap.
 
+#include "csv_table.h"
 #include "moved_scan.h"
+#include "registration_trials.h"
 #include "result_tools.h"
 
 #include <CGAL/Crude_registration/IO/write_file.h>
@@ -21,6 +25,7 @@
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -52,6 +57,7 @@ struct Moved_scan
 {
   std::optional<CR::Scan<Kernel>> scan;
   Transformation moved_from_file = Transformation(CGAL::IDENTITY);
+  benchmark_tools::Trial_scan measures; // without its samples
   double seconds = 0;
 };
 
@@ -86,6 +92,9 @@ Moved_scan read_and_prepare(const std::string& path, const std::string& name, co
   else if (has_viewpoint) prepare(CR::parameters::viewpoint(read.moved(*method.viewpoint)));
   else prepare(CR::parameters::default_values());
   moved.seconds = seconds_since(start);
+  moved.measures = benchmark_tools::to_trial_scan(read, std::nullopt, path);
+  moved.measures.moved.file = {};
+  moved.measures.samples.points = {};
   return moved;
 }
 
@@ -147,6 +156,46 @@ void write(std::ostream& out, const std::vector<Pair>& pairs, const std::vector<
   }
 }
 
+// The answers by the overlap of the pairs.
+void count(const std::string& pairs_file, const std::vector<Pair>& pairs, const std::vector<Answer>& answers,
+           const std::map<std::string, std::size_t>& index, const std::vector<Moved_scan>& scans)
+{
+  const std::vector<benchmark_tools::Row> rows = benchmark_tools::read_table(pairs_file);
+  if (rows.size() != pairs.size() || rows.front().count("overlap") == 0 || rows.front().count("m23") == 0) return;
+  struct Bin
+  {
+    double end;
+    std::size_t pairs = 0, right = 0, wrong = 0, ambiguous = 0;
+  };
+  std::array<Bin, 7> bins = {{{0.1}, {0.2}, {0.3}, {0.5}, {0.7}, {2}, {2}}}; // the last one: all
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto& r = answers[k].result;
+    double m[3][4];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 4; ++j) m[i][j] = r.transformation().m(i, j);
+    const benchmark_tools::Trial_error error(m, benchmark_tools::motion(rows[k]),
+                                             scans[index.at(pairs[k].source)].measures,
+                                             scans[index.at(pairs[k].target)].measures);
+    const auto bin = std::find_if(bins.begin(), bins.end() - 1,
+                                  [&](const Bin& b) { return benchmark_tools::number(rows[k], "overlap") < b.end; });
+    for (Bin* b : {&*bin, &bins.back()}) {
+      ++b->pairs;
+      b->right += r.status() == CR::REGISTERED && error.is_small();
+      b->wrong += r.status() == CR::REGISTERED && !error.is_small();
+      b->ambiguous += r.status() == CR::AMBIGUOUS;
+    }
+  }
+  std::cout << "overlap below  pairs  right  wrong  ambiguous\n";
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const Bin& b = bins[i];
+    if (i + 1 == bins.size()) std::cout << std::setw(13) << "all pairs";
+    else std::cout << std::setw(13) << (std::min)(b.end, 1.);
+    std::cout << std::setw(7) << b.pairs << std::setw(7) << b.right << std::setw(7) << b.wrong << std::setw(11)
+              << b.ambiguous << '\n';
+  }
+  std::cout << "right, wrong: of the registered ones, by 5 degrees, and 5 % of the diagonal at the centroid\n";
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -204,6 +253,7 @@ int main(int argc, char** argv)
                                           [](const Answer& a) { return a.result.status() == CR::REGISTERED; });
     std::cout << pairs.size() << " pairs, " << registered << " registered, " << elapsed << " s with " << threads
               << (threads == 1 ? " thread" : " threads") << ", written to " << output << '\n';
+    count(pairs_file, pairs, answers, index, scans);
   } catch (const std::exception& e) {
     std::cerr << "all_pairs: " << e.what() << '\n';
     return EXIT_FAILURE;

@@ -13,25 +13,18 @@
 // diagonal of where it should be.
 
 #include "child_process.h"
-#include "csv_table.h"
-#include "moved_scan.h"
 #include "reference_time.h"
-#include "result_tools.h"
+#include "registration_trials.h"
 #include "peers/Peer.h"
 #include "peers/open3d.h"
 #include "peers/pcl.h"
 
 #include <CGAL/Crude_registration/IO/write_file.h>
-#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
 #include <CGAL/Crude_registration/register_scans.h>
-
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <boost/program_options.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -39,13 +32,9 @@
 #include <functional>
 #include <iomanip>
 #include <iostream>
-#include <map>
-#include <memory>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -57,72 +46,25 @@ using benchmark_tools::Kernel;
 using benchmark_tools::Peer_answer;
 using benchmark_tools::Peer_scan;
 using benchmark_tools::Peer_setting;
-using benchmark_tools::Transformation;
+using benchmark_tools::Trial_scan;
 
 namespace {
 
 struct Options
 {
-  std::string pairs, scans, output, reference, viewpoint;
-  double minimum_overlap = 0;
-  std::size_t every = 1, runs = 1;
+  benchmark_tools::Trial_options trials;
+  std::string output, reference;
+  std::size_t runs = 1;
   bool tune = false;
 };
 
-struct Scan_in_memory
-{
-  benchmark_tools::Moved_file moved;
-  std::optional<Kernel::Point_3> viewpoint; // of what is no range image
-  Peer_scan samples;                        // the same for the peers
-  Kernel::Point_3 centroid = CGAL::ORIGIN;
-};
-
-template <class Point_or_vector>
-Eigen::Vector3d to_eigen(const Point_or_vector& p)
-{
-  return {p.x(), p.y(), p.z()};
-}
-
-Scan_in_memory read_scan(const std::string& path, const std::string& name,
-                         const std::optional<Kernel::Point_3>& viewpoint)
-{
-  Scan_in_memory scan;
-  scan.moved = benchmark_tools::read_and_move(path, name);
-  const CR::Scan_file<Kernel>& file = scan.moved.file;
-  const Transformation file_from_moved = scan.moved.moved_from_file.inverse();
-  CGAL::Bbox_3 box; // of what is in the file
-  Kernel::Vector_3 sum = CGAL::NULL_VECTOR;
-  const auto add = [&](const Kernel::Point_3& p) {
-    scan.samples.points.emplace_back(p.x(), p.y(), p.z());
-    sum = sum + (p - CGAL::ORIGIN);
-    box += p.transform(file_from_moved).bbox();
-  };
-  for (const auto& p : file.image.points()) add(p);
-  for (const auto& p : file.points) add(p);
-  for (const auto& p : file.mesh.points()) add(p);
-  if (scan.samples.points.empty()) throw std::runtime_error(path + ": the scan has no samples");
-  scan.centroid = CGAL::ORIGIN + sum / double(scan.samples.points.size());
-  const Kernel::Vector_3 diagonal(box.x_span(), box.y_span(), box.z_span());
-  scan.samples.diagonal = std::sqrt(diagonal.squared_length());
-  if (file.kind == CR::Scan_file<Kernel>::RANGE_IMAGE) {
-    CR::Sensor<Kernel> sensor = file.image.sensor();
-    if (!sensor.is_known()) sensor = CR::estimate_sensor(file.image);
-    if (sensor.is_perspective()) scan.samples.viewpoint = to_eigen(sensor.viewpoint());
-    if (sensor.is_orthographic()) scan.samples.viewing_direction = to_eigen(sensor.viewing_direction());
-  } else if (viewpoint) {
-    scan.viewpoint = scan.moved.moved(*viewpoint);
-    scan.samples.viewpoint = to_eigen(*scan.viewpoint);
-  }
-  return scan;
-}
-
-CR::Scan<Kernel> prepare(const Scan_in_memory& scan)
+CR::Scan<Kernel> prepare(const Trial_scan& scan)
 {
   if (scan.viewpoint) return CR::Scan<Kernel>(scan.moved.file, CR::parameters::viewpoint(*scan.viewpoint));
   return CR::Scan<Kernel>(scan.moved.file);
 }
 
-Peer_answer register_by_this_package(const Scan_in_memory& source, const Scan_in_memory& target)
+Peer_answer register_by_this_package(const Trial_scan& source, const Trial_scan& target)
 {
   Peer_answer answer;
   const double start = cpu_seconds();
@@ -137,7 +79,7 @@ Peer_answer register_by_this_package(const Scan_in_memory& source, const Scan_in
 struct Method
 {
   std::string name;
-  std::function<Peer_answer(const Scan_in_memory&, const Scan_in_memory&)> run;
+  std::function<Peer_answer(const Trial_scan&, const Trial_scan&)> run;
 };
 
 using Peer = Peer_answer (*)(const Peer_scan& source, const Peer_scan& target, const Peer_setting& setting);
@@ -145,7 +87,7 @@ using Peer = Peer_answer (*)(const Peer_scan& source, const Peer_scan& target, c
 // A method of a peer, which sees the samples alone.
 [[maybe_unused]] Method of_peer(const std::string& name, Peer peer, const Peer_setting& setting)
 {
-  return {name, [peer, setting](const Scan_in_memory& source, const Scan_in_memory& target) {
+  return {name, [peer, setting](const Trial_scan& source, const Trial_scan& target) {
             return peer(source.samples, target.samples, setting);
           }};
 }
@@ -227,22 +169,7 @@ struct Run
   double bytes_before;
 };
 
-void judge(const Peer_answer& answer, const benchmark_tools::Motion& truth, const Scan_in_memory& source,
-           const Scan_in_memory& target, Row& row)
-{
-  const auto& m = answer.matrix;
-  const Transformation moved(m[0][0], m[0][1], m[0][2], m[0][3], m[1][0], m[1][1], m[1][2], m[1][3], m[2][0], m[2][1],
-                             m[2][2], m[2][3]);
-  const Transformation found = target.moved.moved_from_file.inverse() * moved * source.moved.moved_from_file;
-  const Kernel::Point_3 centroid = source.centroid.transform(source.moved.moved_from_file.inverse());
-  const Eigen::Vector3d wanted = truth.leftCols<3>() * to_eigen(centroid) + truth.col(3);
-  row.is_found = answer.is_found;
-  row.degrees = benchmark_tools::degrees_between(benchmark_tools::rotation(found), truth.leftCols<3>());
-  row.centroid_error = (to_eigen(centroid.transform(found)) - wanted).norm() / source.samples.diagonal;
-  row.is_right = row.is_found && row.degrees < 5 && row.centroid_error < 0.05;
-}
-
-Row run_method(const Method& method, const Scan_in_memory& source, const Scan_in_memory& target,
+Row run_method(const Method& method, const Trial_scan& source, const Trial_scan& target,
                const benchmark_tools::Motion& truth, std::size_t runs)
 {
   Row row;
@@ -255,7 +182,12 @@ Row run_method(const Method& method, const Scan_in_memory& source, const Scan_in
     seconds.push_back(child.value.answer.seconds);
     row.peak_bytes = (std::max)(row.peak_bytes, child.peak_bytes);
     row.own_bytes = (std::max)(row.own_bytes, child.peak_bytes - child.value.bytes_before);
-    judge(child.value.answer, truth, source, target, row);
+    const Peer_answer& answer = child.value.answer;
+    const benchmark_tools::Trial_error error(answer.matrix, truth, source, target);
+    row.is_found = answer.is_found;
+    row.degrees = error.degrees;
+    row.centroid_error = error.centroid;
+    row.is_right = row.is_found && error.is_small();
   }
   row.seconds = benchmark_tools::median(seconds);
   return row;
@@ -335,40 +267,31 @@ void write_csv(const std::string& file, const std::vector<Row>& rows, const std:
 
 int run(const Options& options)
 {
-  const std::optional<Kernel::Point_3> viewpoint = benchmark_tools::read_point(options.viewpoint);
-  std::vector<benchmark_tools::Row> pairs;
-  std::size_t number = 0;
-  for (const benchmark_tools::Row& pair : benchmark_tools::read_table(options.pairs))
-    if (benchmark_tools::number(pair, "overlap") >= options.minimum_overlap && number++ % options.every == 0)
-      pairs.push_back(pair);
-  if (pairs.empty()) throw std::runtime_error(options.pairs + ": no pair is left");
-  std::map<std::string, Scan_in_memory> scans;
-  for (const benchmark_tools::Row& pair : pairs)
-    for (const std::string& name : {pair.at("source"), pair.at("target")})
-      if (scans.count(name) == 0) scans.emplace(name, read_scan(options.scans + "/" + name, name, viewpoint));
+  const benchmark_tools::Trials trials(options.trials);
+  const std::vector<benchmark_tools::Trial_pair>& pairs = trials.pairs();
 
   const std::vector<Method> compared = options.tune ? methods_to_choose_from() : methods();
   if (compared.size() < 2)
     std::cout << "no peer is built in: configure with -D CRUDE_REGISTRATION_WITH_PEERS=ON where libopen3d-dev or "
                  "libpcl-dev is installed\n";
-  const std::string reference_scan =
-      options.reference.empty() ? options.scans + "/" + pairs.front().at("source") : options.reference;
+  std::string reference_scan = options.reference;
+  if (reference_scan.empty() && options.trials.generated == 0)
+    reference_scan = options.trials.scans + "/" + pairs.front().source;
   std::vector<double> reference;
   std::vector<Row> rows;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     // The machine may change its speed on the way.
     if (i % 8 == 0)
-      reference.push_back(benchmark_tools::in_child_process([&] {
-                            return benchmark_tools::Reference_time(reference_scan).run().seconds;
-                          }).value);
-    const std::string &source = pairs[i].at("source"), &target = pairs[i].at("target");
+      reference.push_back(
+          benchmark_tools::in_child_process([&] { return benchmark_tools::reference_seconds(reference_scan); }).value);
+    const benchmark_tools::Trial_pair& pair = pairs[i];
     for (std::size_t m = 0; m < compared.size(); ++m) {
       const std::size_t method = (i + m) % compared.size();
-      Row row = run_method(compared[method], scans.at(source), scans.at(target), benchmark_tools::motion(pairs[i]),
-                           options.runs);
-      row.source = source;
-      row.target = target;
-      row.overlap = benchmark_tools::number(pairs[i], "overlap");
+      Row row =
+          run_method(compared[method], trials.scan(pair.source), trials.scan(pair.target), pair.truth, options.runs);
+      row.source = pair.source;
+      row.target = pair.target;
+      row.overlap = pair.overlap;
       row.method = method;
       rows.push_back(row);
     }
@@ -402,25 +325,18 @@ int main(int argc, char* argv[])
   try {
     Options options;
     po::options_description description(
-        "Usage: compare_with_peers --pairs PAIRS.csv --scans DIR [OPTION...]\n\n"
+        "Usage: compare_with_peers (--pairs PAIRS.csv --scans DIR | --generated N) [OPTION...]\n\n"
         "Registers pairs of scans by this package and by the other libraries that it was built\n"
         "with, and prints how many answers are right and what they cost, with one thread.\n\n"
         "Options");
     description.add_options()("help,h", "print this");
-    description.add_options()("pairs", po::value(&options.pairs)->required(),
-                              "CSV file with the columns source, target, overlap and m00 to m23, the true motion");
-    description.add_options()("scans", po::value(&options.scans)->required(),
-                              "folder the file names in the pairs are relative to");
+    benchmark_tools::add_options(description, options.trials);
     description.add_options()("output", po::value(&options.output), "CSV file to write, one row a pair and method");
-    description.add_options()("minimum-overlap", po::value(&options.minimum_overlap)->default_value(0),
-                              "least overlap of the pairs that are taken");
-    description.add_options()("every", po::value(&options.every)->default_value(1), "take one of so many pairs");
     description.add_options()("runs", po::value(&options.runs)->default_value(1),
                               "runs, of whose times the median counts");
-    description.add_options()("viewpoint", po::value(&options.viewpoint),
-                              "x,y,z: where scans without a grid were seen from, in their own frame");
     description.add_options()("reference", po::value(&options.reference),
-                              "scan whose simplification is the unit of time, R; default: the first source");
+                              "scan whose simplification is the unit of time, R; default: the first source, or a "
+                              "generated scan");
     description.add_options()("tune", po::bool_switch(&options.tune),
                               "compare the peers' settings that the tuned ones were chosen from");
     po::variables_map values;
@@ -430,8 +346,7 @@ int main(int argc, char* argv[])
       return EXIT_SUCCESS;
     }
     po::notify(values);
-    if (options.every == 0 || options.runs == 0)
-      throw std::invalid_argument("--every and --runs have to be at least 1");
+    if (options.runs == 0) throw std::invalid_argument("--runs has to be at least 1");
     return run(options);
   } catch (const std::exception& e) {
     std::cerr << "compare_with_peers: " << e.what() << '\n';

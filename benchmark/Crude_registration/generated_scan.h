@@ -25,6 +25,8 @@
 
 namespace benchmark_tools {
 
+constexpr int scene_resolution = 200;
+
 class Generated_scene
 {
 public:

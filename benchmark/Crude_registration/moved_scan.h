@@ -28,6 +28,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace benchmark_tools {
@@ -101,10 +102,10 @@ struct Moved_file
   Kernel::Point_3 moved(const Kernel::Point_3& p) const { return p.transform(moved_from_file); }
 };
 
-inline Moved_file read_and_move(const std::string& path, const std::string& name)
+inline Moved_file moved_file(CR::Scan_file<Kernel> scan, const std::string& name)
 {
   Moved_file moved;
-  moved.file = CR::read_scan<Kernel>(path);
+  moved.file = std::move(scan);
   CR::Scan_file<Kernel>& file = moved.file;
   CGAL::Bbox_3 box;
   for (const auto& p : file.image.points()) box += p.bbox();
@@ -117,6 +118,11 @@ inline Moved_file read_and_move(const std::string& path, const std::string& name
   for (auto& p : file.points) p = p.transform(motion);
   CGAL::Polygon_mesh_processing::transform(motion, file.mesh);
   return moved;
+}
+
+inline Moved_file read_and_move(const std::string& path, const std::string& name)
+{
+  return moved_file(CR::read_scan<Kernel>(path), name);
 }
 
 } // namespace benchmark_tools

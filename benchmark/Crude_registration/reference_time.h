@@ -12,6 +12,7 @@
 // Machines differ and change their speed from hour to hour; R, measured in the same run, makes times comparable.
 
 #include "cpu_time.h"
+#include "generated_scan.h"
 
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/reduction/simplify_scan.h>
@@ -71,6 +72,15 @@ private:
   Mesh m_dense;
   std::size_t m_vertices;
 };
+
+// R of the scan in a file; of a generated one where no file is named.
+inline double reference_seconds(const std::string& file)
+{
+  if (!file.empty()) return Reference_time(file).run().seconds;
+  Reference_time::Mesh mesh;
+  CGAL::Crude_registration::triangulate_range_image(Generated_scene(scene_resolution).scan(40000, 0, 1).image, mesh);
+  return Reference_time(mesh).run().seconds;
+}
 
 } // namespace benchmark_tools
 

@@ -38,14 +38,13 @@ namespace po = boost::program_options;
 using benchmark_tools::cpu_seconds;
 using benchmark_tools::Generated_scene;
 using benchmark_tools::quoted;
-using benchmark_tools::Reference_time;
+using benchmark_tools::reference_seconds;
+using benchmark_tools::scene_resolution;
 using Kernel = Generated_scene::Kernel;
 using Mesh = Generated_scene::Mesh;
 using Image = CR::Range_image<Kernel>;
 
 namespace {
-
-constexpr int scene_resolution = 200;
 
 struct Options
 {
@@ -286,14 +285,6 @@ void write_plot(const std::string& file, const std::string& csv)
 }
 
 // R: of the scan that is named, or of a generated one of about as many vertices as the scans of the bunny.
-double reference_seconds(const std::string& file)
-{
-  if (!file.empty()) return Reference_time(file).run().seconds;
-  Mesh mesh;
-  CR::triangulate_range_image(Generated_scene(scene_resolution).scan(40000, 0, 1).image, mesh);
-  return Reference_time(mesh).run().seconds;
-}
-
 int run(const Options& options)
 {
   using benchmark_tools::in_child_process;

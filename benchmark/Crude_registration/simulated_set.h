@@ -272,10 +272,10 @@ private:
     for (unsigned k = 0; k < 2; ++k) {
       Mesh statue;
       CGAL::Crude_registration::make_statue(statue, 40, CGAL::Crude_registration::parameters::random_seed(seed + k));
-      using Motion = CGAL::Aff_transformation_3<Kernel>;
+      using Affine = CGAL::Aff_transformation_3<Kernel>;
       const double x = between(0.8, 3.2), y = between(0.6, 2.4);
       CGAL::Polygon_mesh_processing::transform(
-          Motion(CGAL::TRANSLATION, Kernel::Vector_3(x, y, 0.45)) * Motion(CGAL::SCALING, 0.45), statue);
+          Affine(CGAL::TRANSLATION, Kernel::Vector_3(x, y, 0.45)) * Affine(CGAL::SCALING, 0.45), statue);
       CGAL::copy_face_graph(statue, mesh);
     }
   }

@@ -1,0 +1,385 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// A rival of the paper's, DARCES (C.-S. Chen, Y.-P. Hung, J.-B. Cheng: RANSAC-based DARCES, IEEE Transactions on
+// Pattern Analysis and Machine Intelligence 21, 1999), on its four pairs of bunny scans, beside the paper's method.
+//
+// It describes nothing: a triangle of random points of the source is looked for among all points of the target by the
+// lengths of its sides alone. The first point may be anywhere; the second one lies on a sphere around it, the third one
+// on a circle about the line of the two. Every triangle that fits gives a motion, which counts by how many points of
+// the source it takes to the target; those whose first points are not taken there are left early. A point is taken to
+// the target if one of its points is within the tolerance.
+//
+// Both scans are thinned to one point a cell; lengths are in cells.
+
+#include "bunny_pairs.h"
+#include "command_line.h"
+#include "cpu_time.h"
+#include "reference_time.h"
+
+#include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
+#include <CGAL/Crude_registration/reduction/scan_extent.h>
+
+#include <CGAL/bounding_box.h>
+#include <CGAL/centroid.h>
+
+#include <boost/program_options.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CR = CGAL::Crude_registration;
+namespace po = boost::program_options;
+using Eigen::Vector3d;
+
+namespace {
+
+using Points = std::vector<Vector3d>;
+using Motion = Eigen::Isometry3d;
+
+struct Options
+{
+  std::string folder = ".";
+  double points = 1000;                  // about, of a scan that is thinned
+  double tolerance = 0.7;                // in cells
+  double shortest = 0.15, longest = 0.3; // sides of a triangle, in shares of the mean extent M
+  std::size_t triangles = 50, runs = 3;
+};
+
+// The mean of the samples in each cell of a grid, in the order of the cells.
+Points thinned(const bunny::Mesh& mesh, double cell)
+{
+  std::map<std::array<std::int64_t, 3>, std::pair<Vector3d, double>> cells;
+  for (const auto& p : mesh.points()) {
+    const auto index = [&](double x) { return std::int64_t(std::floor(x / cell)); };
+    auto& sum = cells.try_emplace({index(p.x()), index(p.y()), index(p.z())}, Vector3d::Zero(), 0.).first->second;
+    sum.first += Vector3d(p.x(), p.y(), p.z());
+    sum.second += 1;
+  }
+  Points points;
+  for (const auto& c : cells) points.push_back(c.second.first / c.second.second);
+  return points;
+}
+
+// Whether there is a point within a distance of a place, for places rounded to an eighth of the distance.
+class Neighborhood
+{
+public:
+  Neighborhood(const Points& points, double distance) : m_cell(distance / 4)
+  {
+    m_low = m_high = points.front();
+    for (const Vector3d& p : points) {
+      m_low = m_low.cwiseMin(p);
+      m_high = m_high.cwiseMax(p);
+    }
+    m_low -= Vector3d::Constant(distance + m_cell);
+    const Vector3d size = (m_high - m_low) / m_cell + Vector3d::Constant(distance / m_cell + 2);
+    for (std::size_t i = 0; i < 3; ++i) m_size[i] = std::int64_t(size[Eigen::Index(i)]) + 1;
+    m_is_near.resize(std::size_t(m_size[0] * m_size[1] * m_size[2]));
+    const auto reach = std::int64_t(std::ceil(distance / m_cell));
+    for (const Vector3d& p : points) {
+      const Vector3d q = (p - m_low) / m_cell;
+      const std::array<std::int64_t, 3> c = {std::int64_t(q.x()), std::int64_t(q.y()), std::int64_t(q.z())};
+      for (std::int64_t x = c[0] - reach; x <= c[0] + reach; ++x)
+        for (std::int64_t y = c[1] - reach; y <= c[1] + reach; ++y)
+          for (std::int64_t z = c[2] - reach; z <= c[2] + reach; ++z)
+            if ((Vector3d(double(x), double(y), double(z)) + Vector3d::Constant(0.5) - q).norm() * m_cell <= distance)
+              m_is_near[index(x, y, z)] = true;
+    }
+  }
+
+  bool has(const Vector3d& p) const
+  {
+    const Vector3d q = (p - m_low) / m_cell;
+    if (q.minCoeff() < 0) return false;
+    const auto x = std::int64_t(q.x()), y = std::int64_t(q.y()), z = std::int64_t(q.z());
+    return x < m_size[0] && y < m_size[1] && z < m_size[2] && m_is_near[index(x, y, z)];
+  }
+
+private:
+  std::size_t index(std::int64_t x, std::int64_t y, std::int64_t z) const
+  {
+    return std::size_t((x * m_size[1] + y) * m_size[2] + z);
+  }
+
+  double m_cell;
+  Vector3d m_low, m_high;
+  std::array<std::int64_t, 3> m_size;
+  std::vector<bool> m_is_near;
+};
+
+using Triangle = std::array<Vector3d, 3>;
+
+// A frame in the plane of a triangle: the first side is its x axis.
+Motion frame(const Triangle& t)
+{
+  Eigen::Matrix3d axes;
+  axes.col(0) = (t[1] - t[0]).normalized();
+  axes.col(2) = axes.col(0).cross(t[2] - t[0]).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  Motion m = Motion::Identity();
+  m.linear() = axes;
+  m.translation() = t[0];
+  return m;
+}
+
+// std::shuffle and the distributions differ from library to library.
+std::size_t below(std::mt19937_64& random, std::size_t n)
+{
+  return std::size_t(random() % n);
+}
+
+struct Found
+{
+  Motion motion = Motion::Identity();
+  std::size_t overlap = 0, motions = 0; // points taken to the target; motions tried
+};
+
+class Darces
+{
+public:
+  Darces(Points source, Points target, double cell, double shortest, double longest, double tolerance,
+         std::mt19937_64& random)
+      : m_source(std::move(source)), m_target(std::move(target)), m_near(m_target, tolerance * cell),
+        m_tolerance(tolerance * cell), m_shortest(shortest), m_longest(longest), m_random(random)
+  {
+    for (std::size_t i = m_source.size(); i > 1; --i) std::swap(m_source[i - 1], m_source[below(m_random, i)]);
+  }
+
+  Found run(std::size_t triangles)
+  {
+    for (std::size_t i = 0; i < triangles; ++i) look_for(random_triangle());
+    return m_found;
+  }
+
+private:
+  bool is_side(double length) const { return length >= m_shortest && length <= m_longest; }
+
+  Triangle random_triangle()
+  {
+    constexpr std::size_t most_attempts = 1000000;
+    for (std::size_t i = 0; i < most_attempts; ++i) {
+      const auto point = [&] { return m_source[below(m_random, m_source.size())]; };
+      const Triangle t = {point(), point(), point()};
+      const Vector3d a = t[1] - t[0], b = t[2] - t[0];
+      if (!is_side(a.norm()) || !is_side(b.norm()) || !is_side((t[2] - t[1]).norm())) continue;
+      // The third point far enough from the line for the circle to mean something.
+      if (a.cross(b).norm() > 0.5 * m_shortest * a.norm()) return t;
+    }
+    throw std::runtime_error("the source has no triangle with sides of these lengths");
+  }
+
+  void look_for(const Triangle& t)
+  {
+    const Vector3d side = t[1] - t[0];
+    const double length = side.norm(), foot = side.dot(t[2] - t[0]) / length;
+    const double height = (t[2] - t[0] - foot / length * side).norm(), reach = std::hypot(foot, height) + m_tolerance;
+    const Motion source_frame_inverse = frame(t).inverse();
+    std::vector<std::size_t> second, third;
+    for (const Vector3d& p : m_target) {
+      second.clear();
+      third.clear();
+      for (std::size_t i = 0; i < m_target.size(); ++i) {
+        const double distance = (m_target[i] - p).norm();
+        if (std::abs(distance - length) <= m_tolerance) second.push_back(i);
+        if (distance <= reach) third.push_back(i);
+      }
+      for (std::size_t s : second) {
+        const Vector3d line = (m_target[s] - p).normalized();
+        for (std::size_t a : third) {
+          const Vector3d to = m_target[a] - p;
+          const double x = line.dot(to), y = (to - x * line).norm();
+          if (std::hypot(x - foot, y - height) > m_tolerance) continue;
+          verify(frame({p, m_target[s], m_target[a]}) * source_frame_inverse);
+        }
+      }
+    }
+  }
+
+  // As long as the motion can still be the best one: after the first points their share has to be half of the best.
+  void verify(const Motion& motion)
+  {
+    ++m_found.motions;
+    constexpr std::size_t first_points = 40;
+    std::size_t overlap = 0;
+    for (std::size_t i = 0; i < m_source.size(); ++i) {
+      overlap += m_near.has(motion * m_source[i]);
+      if (overlap + (m_source.size() - i - 1) <= m_found.overlap) return;
+      if (i == first_points && 2 * overlap * m_source.size() < first_points * m_found.overlap) return;
+    }
+    m_found.overlap = overlap;
+    m_found.motion = motion;
+  }
+
+  Points m_source, m_target;
+  Neighborhood m_near;
+  double m_tolerance, m_shortest, m_longest;
+  std::mt19937_64& m_random;
+  Found m_found;
+};
+
+// The size of the cells that leave about so many points of a surface: their number goes with one over the square of it.
+double cell_size(const bunny::Dense_scan& scan, double points)
+{
+  double cell = CR::scan_extent(scan.image).mean() / 30;
+  for (int i = 0; i < 3; ++i) cell *= std::sqrt(double(thinned(scan.mesh, cell).size()) / points);
+  return cell;
+}
+
+struct Answer
+{
+  Found found;
+  std::size_t points; // of the source
+  double seconds;
+  bunny::Error crude, refined;
+  bool is_right;
+};
+
+bool is_right(const bunny::Transformation& found, const bunny::Transformation& truth, const bunny::Mesh& source)
+{
+  const CGAL::Bbox_3 box = CGAL::bbox_3(source.points().begin(), source.points().end());
+  const Vector3d diagonal(box.x_span(), box.y_span(), box.z_span());
+  const auto middle = CGAL::centroid(source.points().begin(), source.points().end(), CGAL::Dimension_tag<0>());
+  const double shift = std::sqrt(CGAL::squared_distance(middle.transform(found), middle.transform(truth)));
+  return benchmark_tools::degrees_between(found, truth) < 5 && shift < 0.05 * diagonal.norm();
+}
+
+Answer register_by_darces(const bunny::Dense_scan& source, const bunny::Dense_scan& target,
+                          const bunny::Transformation& truth, const Options& options, std::mt19937_64& random)
+{
+  Answer answer;
+  const double start = benchmark_tools::cpu_seconds();
+  const double cell = cell_size(source, options.points), m = CR::scan_extent(source.image).mean();
+  Points points = thinned(source.mesh, cell);
+  answer.points = points.size();
+  Darces darces(std::move(points), thinned(target.mesh, cell), cell, options.shortest * m, options.longest * m,
+                options.tolerance, random);
+  answer.found = darces.run(options.triangles);
+  answer.seconds = benchmark_tools::cpu_seconds() - start;
+  const Motion& motion = answer.found.motion;
+  const auto crude = benchmark_tools::to_motion<bunny::Kernel>(motion.linear(), Vector3d(motion.translation()));
+  const auto refined = CR::refine_motion<CGAL::Sequential_tag>(source.mesh, target.mesh, crude).motion;
+  answer.crude = bunny::Error(crude, truth);
+  answer.refined = bunny::Error(refined, truth);
+  answer.is_right = is_right(refined, truth, source.mesh);
+  return answer;
+}
+
+// The paper's method by this package, from the same samples.
+template <class Generator>
+Answer register_by_package(const bunny::Dense_scan& source, const bunny::Dense_scan& target,
+                           const bunny::Transformation& truth, const Generator& generator)
+{
+  Answer answer{};
+  const auto np = CR::parameters::candidates(generator);
+  const double start = benchmark_tools::cpu_seconds();
+  const auto result =
+      CR::register_scans(CR::Scan<bunny::Kernel>(source.image, np), CR::Scan<bunny::Kernel>(target.image, np), np);
+  answer.seconds = benchmark_tools::cpu_seconds() - start;
+  answer.crude = bunny::Error(result.crude_transformation(), truth);
+  answer.refined = bunny::Error(result.transformation(), truth);
+  answer.is_right = result.status() == CR::REGISTERED && is_right(result.transformation(), truth, source.mesh);
+  return answer;
+}
+
+void print(const std::string& pair, const std::string& method, const Answer& a, double reference)
+{
+  std::ostringstream out;
+  out << std::left << std::setw(9) << pair << std::setw(26) << method << std::right << std::fixed;
+  if (a.points > 0)
+    out << std::setw(9) << a.found.motions << std::setprecision(3) << std::setw(9)
+        << double(a.found.overlap) / double(a.points);
+  else out << std::setw(9) << '-' << std::setw(9) << '-';
+  out << std::setprecision(3) << std::setw(9) << a.crude.rotation << std::setw(9) << a.refined.rotation << std::setw(7)
+      << (a.is_right ? "yes" : "no") << std::setw(10) << a.seconds << std::setprecision(2) << std::setw(9)
+      << a.seconds / reference << '\n';
+  std::cout << out.str() << std::flush;
+}
+
+int run(const Options& options)
+{
+  const std::array<const char*, 4> names = {"000", "090", "180", "270"};
+  std::vector<bunny::Dense_scan> scans;
+  for (const char* name : names) scans.push_back(bunny::read_scan(options.folder, "bun" + std::string(name) + ".ply"));
+  const double reference = benchmark_tools::reference_seconds(options.folder + "/bun000.ply");
+  std::cout << "                                             of points   degrees    after                  \n"
+            << "pair     method                      motions  overlap    crude      ICP  right   CPU s        R\n";
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const bunny::Dense_scan &source = scans[i], &target = scans[(i + 1) % scans.size()];
+    const std::string pair = std::string(names[i]) + '-' + names[(i + 1) % scans.size()];
+    const auto truth = bunny::published_pose(options.folder, target.name).inverse() *
+                       bunny::published_pose(options.folder, source.name);
+    for (std::size_t k = 0; k < options.runs; ++k) {
+      std::mt19937_64 random(k + 1);
+      const Answer answer = register_by_darces(source, target, truth, options, random);
+      right += answer.is_right;
+      print(pair, "DARCES, seed " + std::to_string(k + 1), answer, reference);
+    }
+    print(pair, "trihedra (the paper)", register_by_package(source, target, truth, CR::Trihedron_candidates()),
+          reference);
+    print(pair, "oriented pairs", register_by_package(source, target, truth, CR::Oriented_pair_candidates()),
+          reference);
+  }
+  std::cout << "\nDARCES is right in " << right << " of " << scans.size() * options.runs
+            << " runs; right: after ICP within 5 degrees, and the centroid within 5 % of\nthe diagonal; R = "
+            << reference << " s\n";
+  return EXIT_SUCCESS;
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  try {
+    Options options;
+    po::options_description description(
+        "Usage: rival_darces [OPTION...]\n\n"
+        "Registers the paper's four pairs of bunny scans by DARCES, whose triangles are\n"
+        "of points without description, and by this package.\n\n"
+        "Options");
+    description.add_options()("help,h", "print this");
+    description.add_options()("scans", po::value(&options.folder),
+                              "folder of bun000.ply, ... and bun.conf; default: this one");
+    description.add_options()("points", po::value(&options.points)->default_value(options.points),
+                              "points that the source is thinned to, about; the target is as dense");
+    description.add_options()("triangles", po::value(&options.triangles)->default_value(options.triangles),
+                              "random triangles of a run");
+    description.add_options()("runs", po::value(&options.runs)->default_value(options.runs), "runs, a seed each");
+    description.add_options()("tolerance", po::value(&options.tolerance)->default_value(options.tolerance),
+                              "of lengths and of points that correspond, in cells of the thinning");
+    description.add_options()("shortest", po::value(&options.shortest)->default_value(options.shortest),
+                              "shortest side of a triangle, in shares of M");
+    description.add_options()("longest", po::value(&options.longest)->default_value(options.longest),
+                              "longest side of a triangle");
+    po::variables_map values;
+    if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
+    if (!(options.points >= 10 && options.tolerance > 0 && options.shortest > 0 && options.shortest < options.longest))
+      throw std::invalid_argument("--points has to be 10 or more, the others above zero, --shortest below --longest");
+    return run(options);
+  } catch (const std::exception& e) {
+    std::cerr << "rival_darces: " << e.what() << '\n';
+    return EXIT_FAILURE;
+  }
+}
