@@ -141,7 +141,7 @@ Pair_registration pair_registration(const ScanRange& scans, const Generator& gen
 {
   using Difference = typename std::iterator_traits<decltype(std::begin(scans))>::difference_type;
   const auto first = std::begin(scans);
-  const Pair_registration register_now = [first, generator](std::size_t i, std::size_t j, Run_control& task) {
+  Pair_registration register_now = [first, generator](std::size_t i, std::size_t j, Run_control& task) {
     return to_pair_answer(
         register_scans<CGAL::Sequential_tag>(first[Difference(i)], first[Difference(j)], generator, task));
   };
