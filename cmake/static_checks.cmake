@@ -82,7 +82,7 @@ file(GLOB app_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT
 foreach(source IN LISTS app_sources)
   string(MAKE_C_IDENTIFIER ${source} name)
   check_source(program_stamps ${name} ${PROJECT_SOURCE_DIR}/${source} "${source}" AFTER_COMMON
-    -DCGAL_CRUDE_REGISTRATION_COMPILED)
+    -DCGAL_CRUDE_REGISTRATION_COMPILED "-DCRUDE_REGISTRATION_VERSION=\"${PROJECT_VERSION}\"")
 endforeach()
 if(TARGET benchmarks)
   get_target_property(names benchmarks MANUALLY_ADDED_DEPENDENCIES)
