@@ -12,6 +12,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(TARGET crude_registration_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -41,6 +44,13 @@ foreach(option_and_package IN ITEMS TBB=libtbb-dev PNG=libpng-dev GZIP=libboost-
   endif()
 endforeach()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ${depends})
+
+# Its name and the rest are set where the module is.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+"global rigid registration of range scans, for Python
+ The module crude_registration finds the rigid motion between two partially
+ overlapping 3-D scans, assembles many, and says whether it is right.")
 
 # What Debian wants of each package beside: its copyright and its changes, in the folder of its name.
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_SOURCE_DIR}/cmake/debian_files.cmake)
