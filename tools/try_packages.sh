@@ -18,7 +18,7 @@ lintian --fail-on error,warning --suppress-tags bogus-mail-host,bogus-mail-host-
   "$folder"/build/packages/*.deb
 
 root=$folder/root
-[ -e "$root/etc/debian_version" ] || debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian
+[ -e "$root/etc/debian_version" ] || debootstrap --variant=minbase bookworm "$root"
 cp "$folder"/build/packages/*.deb "$root/tmp/"
 chroot "$root" sh -euc '
   export DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin
