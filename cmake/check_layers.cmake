@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.22)
 set(rooms
   "named_parameters.h|IO/IO_error.h|internal/base/.*"
-  "Registration_status.h|Registration_result.h|Assembly_status.h|Assembly_result.h|Sensor.h|Range_image.h"
+  "Judgement_limits.h|Registration_status.h|Registration_result.h|Assembly_status.h|Assembly_result.h|Sensor.h|Range_image.h"
   "internal/mesh/.*"
   "internal/lookup/.*"
   "(internal/)?sampling/.*"

@@ -15,10 +15,9 @@
 #include "report_scans.h"
 #include "surfaces.h"
 
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/assemble_scans.h>
-#include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
-#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
 
 #include <algorithm>
 #include <cmath>
@@ -123,13 +122,13 @@ void write_assembly_report(const std::string& file, const Assembly& result, cons
     spacing = (std::max)(spacing, scans[i].spacing());
   }
   thin_out(shown, 1);
-  const double reach = CR::internal::residual_reach * spacing;
+  const double reach = CR::Judgement_limits::residual_reach * spacing;
   const Report_verdict verdict = verdict_of(result);
   Report_bytes bytes;
   Json data = {{"kind", "assembly"}, {"command", "assemble"}, {"verdict", to_json(verdict)}};
   data["spacing"] = spacing;
-  data["reach_in_spacings"] = CR::internal::residual_reach;
-  data["free_space_depth_in_spacings"] = CR::internal::free_space_depth;
+  data["reach_in_spacings"] = CR::Judgement_limits::residual_reach;
+  data["free_space_depth_in_spacings"] = CR::Judgement_limits::free_space_depth;
   data["steps_of_reach"] = steps_of_reach;
   data["have_common_frame"] = true;
   data["notes"] = Json::array();

@@ -15,11 +15,9 @@
 #include "sides.h"
 #include "surfaces.h"
 
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
-#include <CGAL/Crude_registration/internal/judgement/Verdict.h>
-#include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
-#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
 #include <CGAL/Crude_registration/judge_motion.h>
 
 #include <Eigen/Geometry>
@@ -111,27 +109,26 @@ inline Point middle_of(const CR::Scan<Kernel>& scan)
 inline std::vector<Report_number> numbers_of(const CR::Registration_result<Kernel>& result,
                                              const std::array<const CR::Scan<Kernel>*, 2>& scans)
 {
-  namespace internal = CR::internal;
   std::vector<Report_number> numbers;
   const auto add = [&](const std::string& name, const std::string& value, const std::string& meaning) {
     numbers.push_back({name, value, meaning});
   };
   const double spacing = coarser_spacing(scans);
   add("Confidence", per_cent(result.confidence()),
-      "The probability that the motion is right. From " + per_cent(internal::believed) +
+      "The probability that the motion is right. From " + per_cent(CR::Judgement_limits::believed) +
           " on it is called registered; if the probability that any motion is right is below " +
-          per_cent(internal::plausible) + ", none is given.");
+          per_cent(CR::Judgement_limits::plausible) + ", none is given.");
   if (result.status() != CR::NOT_REGISTERED) {
     add("Overlap", per_cent(result.overlap()),
         "The share of the source's surface that has the target close by, facing the same way.");
     add("Residual",
         number_text(result.residual()) + " sampling distances (" + number_text(result.residual() * spacing) + ")",
         "The root mean square distance of the surfaces, along their normals, where one is within " +
-            number_text(internal::residual_reach) +
+            number_text(CR::Judgement_limits::residual_reach) +
             " sampling distances of the other. What is left is noise, and how far apart the samples are.");
     add("In free space", per_cent(result.free_space_violations()),
         "The share of the source that lies where the target's sensor saw that there is nothing (more than " +
-            number_text(double(internal::free_space_depth)) +
+            number_text(CR::Judgement_limits::free_space_depth) +
             " sampling distances in front of what it saw), plus that of the target before the source's sensor. Of a "
             "right motion it is next to nothing.");
     const Transformation& m = result.transformation();
@@ -210,7 +207,7 @@ inline Report_verdict verdict_of(const CR::Motion_judgement<Kernel>& judgement)
 
 inline void write_pair_report(const std::string& file, const Pair_report& report)
 {
-  const double spacing = coarser_spacing(report.scans), reach = CR::internal::residual_reach * spacing;
+  const double spacing = coarser_spacing(report.scans), reach = CR::Judgement_limits::residual_reach * spacing;
   std::vector<Report_scan> scans;
   for (std::size_t i = 0; i < 2; ++i) {
     Report_scan scan{base_name(report.sides[i]->file), report.scans[i]};
@@ -222,8 +219,8 @@ inline void write_pair_report(const std::string& file, const Pair_report& report
   Report_bytes bytes;
   Json data = {{"kind", "pair"}, {"command", report.command}, {"verdict", to_json(report.verdict)}};
   data["spacing"] = spacing;
-  data["reach_in_spacings"] = CR::internal::residual_reach;
-  data["free_space_depth_in_spacings"] = CR::internal::free_space_depth;
+  data["reach_in_spacings"] = CR::Judgement_limits::residual_reach;
+  data["free_space_depth_in_spacings"] = CR::Judgement_limits::free_space_depth;
   data["steps_of_reach"] = steps_of_reach;
   data["have_common_frame"] = report.have_common_frame;
   data["notes"] = report.notes;

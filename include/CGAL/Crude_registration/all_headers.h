@@ -27,6 +27,7 @@
 #include <CGAL/Crude_registration/IO/write_range_image.h>
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/Registration_result.h>
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/Registration_status.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/Sensor.h>

@@ -14,10 +14,10 @@
 
 // What points of one scan meet where another one lies.
 
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
 #include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
-#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
 
 #include <CGAL/Aff_transformation_3.h>
 
@@ -76,7 +76,7 @@ std::vector<Compared_point<Kernel>> compare_points(const PointRange& points, con
   const internal::Look look = internal::fine_look(from, to);
   const internal::Nearest_surfel surface{to.fine.surfels, to.fine.field, double(to.fine.spacing)};
   const double reach =
-      (std::max)(double(to.fine.spacing), internal::residual_reach * (std::max)(from.spacing, to.spacing));
+      (std::max)(double(to.fine.spacing), Judgement_limits::residual_reach * (std::max)(from.spacing, to.spacing));
   std::vector<Compared_point<Kernel>> met;
   for (const auto& point : points) {
     Compared_point<Kernel> m;

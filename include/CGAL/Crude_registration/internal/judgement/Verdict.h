@@ -14,6 +14,7 @@
 
 // What is to be believed of the poses that were found.
 
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/Registration_status.h>
 
 #include <algorithm>
@@ -24,14 +25,8 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// The confidence from which on a motion is worth an answer.
-constexpr double plausible = 0.5;
-
-// The confidence from which on it is believed.
-constexpr double believed = 0.9;
-
-// The probability from which on, or from one less it on, nothing more is looked for.
-constexpr double certain = 0.99;
+constexpr double plausible = Judgement_limits::plausible, believed = Judgement_limits::believed,
+                 certain = Judgement_limits::certain;
 
 struct Verdict
 {

@@ -14,6 +14,7 @@
 
 // Poses estimated again from the reduced surfaces, by some steps of refinement on the coarse surfels.
 
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/base/near_poses.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
@@ -48,13 +49,11 @@ inline Look look_at(const Surfel_level& a, const Surfel_level& b, float times_he
           std::cos((std::min)((std::max)(turn, 0.2f), 0.7f)), free_depth};
 }
 
-// How far in front of what was seen a sample is in free space, in sampling distances of the coarser scan.
-inline constexpr float free_space_depth = 3;
-
 // How the judge looks at fine surfels: as much as all but a few of their own neighbours are off is near.
 inline Look fine_look(const Reduced_scan& a, const Reduced_scan& b)
 {
-  return look_at(a.fine, b.fine, 4.3f, 2.4f, free_space_depth * float((std::max)(a.spacing, b.spacing)));
+  return look_at(a.fine, b.fine, 4.3f, 2.4f,
+                 float(Judgement_limits::free_space_depth) * float((std::max)(a.spacing, b.spacing)));
 }
 
 // Each pose after a step from each of the reaches, in spacings of the coarse surfels, by some of the source's; scored

@@ -33,10 +33,6 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// How near a surface is for the last refinement and the residual that it leaves, in sampling distances of the coarser
-// scan.
-inline constexpr double residual_reach = 2;
-
 struct Registration_outcome
 {
   std::vector<Judged_pose> poses;          // distinct, best first; in own frames, see to_input()

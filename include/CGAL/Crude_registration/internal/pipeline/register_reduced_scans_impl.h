@@ -14,6 +14,7 @@
 
 // The steps of register_reduced_scans.h.
 
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
@@ -106,7 +107,7 @@ inline Refinement refined(const Reduced_scan& source, const Reduced_scan& target
   const Nearest_surfel surface{target.fine.surfels, target.fine.field, double(target.fine.spacing)};
   Refinement_options options{};
   options.sampling_distance = (std::max)(source.spacing, target.spacing);
-  options.reach = residual_reach * options.sampling_distance;
+  options.reach = Judgement_limits::residual_reach * options.sampling_distance;
   options.tolerance = 1e-2; // of a sampling distance: far below the noise
   return Point_to_plane<Nearest_surfel>(points, normals, surface, options, execution)(motion);
 }
