@@ -99,18 +99,25 @@ public:
       log_right[kind] = std::log(m_coefficients.right[kind]);
     }
     const std::array<double, Outcome::SIZE> fit = log_ratios_of_fits(fits);
+    // By how often what came of a probe did so under the candidates, which are few.
+    const std::size_t counts = m_table.poses() - near.size() + 1;
+    std::vector<double> log_ratios(Outcome::kinds * counts);
+    for (std::size_t kind = 0; kind < Outcome::kinds; ++kind)
+      for (std::size_t n = 0; n < counts; ++n) {
+        const double r = log_right[kind] - std::log((double(n) + prior[kind]) / (candidates + pseudo));
+        log_ratios[kind * counts + n] = kind == 0 ? r : (std::min)(r, 0.);
+      }
     double result = 0;
     for (std::size_t i = 0; i < m_table.probes(); ++i) {
       const std::uint8_t o = outcomes[i];
       if (o == Outcome::UNKNOWN) continue;
       const auto kind = std::size_t(Outcome::kind(o));
-      double here = double(m_counts[i][kind]);
+      std::int32_t here = m_counts[i][kind];
       for (const std::size_t k : near) {
         const std::uint8_t other = m_table[k][i];
-        here -= double(other != Outcome::UNKNOWN && Outcome::kind(other) == int(kind));
+        here -= std::int32_t(other != Outcome::UNKNOWN && Outcome::kind(other) == int(kind));
       }
-      const double log_ratio = log_right[kind] - std::log((here + prior[kind]) / (candidates + pseudo));
-      result += kind == 0 ? log_ratio + fit[o] : (std::min)(log_ratio, 0.);
+      result += log_ratios[kind * counts + std::size_t(here)] + fit[o]; // which is 0 of what does not agree
     }
     return result;
   }

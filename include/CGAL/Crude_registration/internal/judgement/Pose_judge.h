@@ -31,6 +31,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <vector>
 
 namespace CGAL {
@@ -44,8 +45,11 @@ public:
   Pose_judge(const Reduced_scan& source, const Reduced_scan& target, Execution execution, Run_control& control,
              const Evidence_coefficients& coefficients = {})
       : m_source(source), m_target(target), m_execution(execution), m_control(control), m_coefficients(coefficients),
-        m_fine_source_probes(source.fine, 0, 2500), m_fine_target_probes(target.fine, 0, 2500),
-        m_source_probes(source.fine, 0, evidence_probes), m_target_probes(target.fine, 0, evidence_probes),
+        m_few_source_probes(neighbouring_probes(source.fine, 800)),
+        m_fine_source_probes(neighbouring_probes(source.fine, 2500)),
+        m_fine_target_probes(neighbouring_probes(target.fine, 2500)),
+        m_source_probes(neighbouring_probes(source.fine, evidence_probes)),
+        m_target_probes(neighbouring_probes(target.fine, evidence_probes)),
         m_usual(usual_log_ratios(coefficients)), m_extent(float((std::min)(source.extent, target.extent))),
         m_fine_look(fine_look(source, target)),
         m_tolerance(probe_tolerance(source.fine, target.fine, m_fine_look.free_depth))
@@ -69,10 +73,17 @@ public:
     if (m_control.is_stopped()) return;
     add_candidates(tried);
     if (m_control.is_stopped()) return;
+    const std::size_t old = m_judged.size();
     m_judged.insert(m_judged.end(), poses.begin(), poses.end());
-    const Chance source(m_source_outcomes, m_coefficients), target(m_target_outcomes, m_coefficients);
-    for_each_index(m_execution, m_judged.size(), to_the_end(),
-                   [&](std::size_t i) { weigh(m_judged[i], source, target); });
+    m_judged_source_outcomes.resize(m_judged.size(), m_source_probes.size());
+    m_judged_target_outcomes.resize(m_judged.size(), m_target_probes.size());
+    m_source_chance.emplace(m_source_outcomes, m_coefficients);
+    m_target_chance.emplace(m_target_outcomes, m_coefficients);
+    for_each_index(m_execution, m_judged.size(), to_the_end(), [&](std::size_t i) {
+      std::uint8_t *const source = m_judged_source_outcomes[i], *const target = m_judged_target_outcomes[i];
+      if (i >= old) look(m_judged[i].pose, source, target);
+      weigh(m_judged[i], source, target);
+    });
   }
 
   std::size_t number_of_judged() const { return m_judged.size(); }
@@ -107,9 +118,8 @@ public:
   {
     const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
     // The first steps are the longest, and fewer probes tell them.
-    const Probes some(m_source.fine, 0, 800);
     for (float reach : {2.f, 2.f, 2.f, 1.25f})
-      if (refine_step(some, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
+      if (refine_step(m_few_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
     for (float reach : {1.25f, 0.75f})
       if (refine_step(m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
     return pose;
@@ -130,7 +140,8 @@ public:
   {
     Judged_pose judged;
     judged.pose = pose;
-    weigh(judged, Chance(m_source_outcomes, m_coefficients), Chance(m_target_outcomes, m_coefficients));
+    const std::vector<std::uint8_t> found = outcomes(pose);
+    weigh(judged, found.data(), found.data() + m_source_probes.size());
     return judged;
   }
 
@@ -195,10 +206,9 @@ private:
            double(m_source_probes.size() + m_target_probes.size());
   }
 
-  void weigh(Judged_pose& judged, const Chance& source_chance, const Chance& target_chance) const
+  // `source`, `target`: the outcomes under the pose.
+  void weigh(Judged_pose& judged, const std::uint8_t* source, const std::uint8_t* target) const
   {
-    std::vector<std::uint8_t> source(m_source_probes.size()), target(m_target_probes.size());
-    look(judged.pose, source.data(), target.data());
     std::vector<std::size_t> near;
     judged.evidence.rival = 0;
     for (std::size_t k = 0; k < m_candidates.size(); ++k) {
@@ -208,18 +218,21 @@ private:
     // The middle of each bin of the residuals.
     constexpr std::array<double, Outcome::residual_bins> residuals = {0.0625, 0.1875, 0.375, 0.75};
     double agreeing = 1, violating = 0, squares = residuals.back() * residuals.back(); // as if one more agreed, badly
-    for (const auto* outcomes : {&source, &target})
-      for (const std::uint8_t o : *outcomes) {
+    const auto add = [&](const std::uint8_t* outcomes, std::size_t n) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::uint8_t o = outcomes[i];
         violating += double(o == Outcome::IN_FREE_SPACE);
         if (o == Outcome::UNKNOWN || o > Outcome::fits) continue;
         const double u = residuals[std::size_t(o - 1) / Outcome::angle_bins];
         squares += u * u;
         ++agreeing;
       }
-    const auto probes = double(source.size() + target.size());
-    judged.evidence.nats =
-        (source_chance.evidence(source.data(), near) + target_chance.evidence(target.data(), near)) / probes;
-    judged.evidence.usual = usual(source.data(), target.data());
+    };
+    add(source, m_source_probes.size());
+    add(target, m_target_probes.size());
+    const auto probes = double(m_source_probes.size() + m_target_probes.size());
+    judged.evidence.nats = (m_source_chance->evidence(source, near) + m_target_chance->evidence(target, near)) / probes;
+    judged.evidence.usual = usual(source, target);
     judged.evidence.residual = std::sqrt(squares / agreeing);
     judged.evidence.violations = violating / agreeing;
     judged.evidence.surfels = double((std::min)(m_source.fine.surfels.size(), m_target.fine.surfels.size()));
@@ -232,7 +245,8 @@ private:
   const Execution m_execution;
   Run_control& m_control;
   const Evidence_coefficients m_coefficients;
-  const Probes m_fine_source_probes, m_fine_target_probes, m_source_probes, m_target_probes;
+  const std::vector<Surfel> m_few_source_probes, m_fine_source_probes, m_fine_target_probes, m_source_probes,
+      m_target_probes;
   const std::array<double, Outcome::SIZE> m_usual;
   const float m_extent;
   const Look m_fine_look;
@@ -240,7 +254,9 @@ private:
   std::vector<Pose> m_candidates; // distinct; with what the probes of the source and of the target meet under them
   Outcome_table m_source_outcomes, m_target_outcomes;
   std::vector<double> m_usual_evidence; // of the candidates, a probe
+  std::optional<Chance> m_source_chance, m_target_chance; // by the candidates so far
   std::vector<Judged_pose> m_judged;
+  Outcome_table m_judged_source_outcomes, m_judged_target_outcomes;
 };
 
 } // namespace internal

@@ -76,6 +76,19 @@ private:
   std::size_t m_size;
 };
 
+// The first `n` probes of a level, in the order of its surfels: one after the other lies near the one before, and finds
+// in the cache what that has looked at.
+inline std::vector<Surfel> neighbouring_probes(const Surfel_level& level, std::size_t n)
+{
+  std::vector<std::int32_t> indices(level.probes.begin(),
+                                    level.probes.begin() + std::ptrdiff_t((std::min)(n, level.probes.size())));
+  std::sort(indices.begin(), indices.end());
+  std::vector<Surfel> probes;
+  probes.reserve(indices.size());
+  for (const std::int32_t i : indices) probes.push_back(level.surfels[std::size_t(i)]);
+  return probes;
+}
+
 // The agreement under `pose`, target from source, of probes of either scan; those of the source are compared with the
 // surfels of `level`. It ends where a score of `least` is out of reach: the score is then any below it.
 template <class Source_probes, class Target_probes>

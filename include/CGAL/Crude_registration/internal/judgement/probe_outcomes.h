@@ -17,6 +17,7 @@
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -68,38 +69,50 @@ template <class Probe_range>
 void probe_outcomes(const Probe_range& probes, const Reduced_scan& other, const Pose& pose,
                     const Probe_tolerance& tolerance, std::uint8_t* outcome)
 {
-  const bool is_known = other.depths.is_known();
   // acos is monotonous: the cosines of the bins' edges.
   const std::array<float, 3> cosines = {std::cos(tolerance.angle / 3), std::cos(2 * tolerance.angle / 3),
                                         std::cos(tolerance.angle)};
   const float inverse = 1 / tolerance.distance, widest = other.fine.spacing * other.fine.spacing;
-  for (const Surfel& s : probes) {
-    const Vector_f p = pose(s.position), n = pose.rotation * s.normal;
-    std::uint8_t result = Outcome::UNKNOWN;
-    const int j = other.fine.field.nearest(p);
-    if (j >= 0) {
-      const Surfel& t = other.fine.surfels[std::size_t(j)];
-      const Vector_f d = p - t.position;
-      const float r = t.normal.dot(d), u = std::abs(r) * inverse, c = n.dot(t.normal);
+  // Some at a time, and a step for all of them before the next one, without a branch: what comes of a probe cannot be
+  // foretold. Those that are told by the lines of sight are gathered.
+  constexpr std::size_t block = 64;
+  std::array<Vector_f, block> places, normals;
+  std::array<int, block> nearest;
+  std::array<std::uint8_t, block> open;
+  auto probe = probes.begin();
+  for (std::size_t from = 0; from < probes.size(); from += block, outcome += block) {
+    const std::size_t n = (std::min)(block, probes.size() - from);
+    for (std::size_t i = 0; i < n; ++i, ++probe) {
+      const Surfel& s = *probe;
+      places[i] = pose(s.position);
+      normals[i] = pose.rotation * s.normal;
+      nearest[i] = other.fine.field.nearest(places[i]);
+    }
+    std::size_t opens = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const int is_near = int(nearest[i] >= 0);
+      const Surfel& t = other.fine.surfels[std::size_t(is_near != 0 ? nearest[i] : 0)];
+      const Vector_f d = places[i] - t.position;
+      const float r = t.normal.dot(d), u = std::abs(r) * inverse, c = normals[i].dot(t.normal);
       // Further aside than surfels are apart, the other surface has ended.
-      if ((d - r * t.normal).squaredNorm() < widest) {
-        result = Outcome::DISAGREES;
-        if (u < 1 && c > cosines[2]) {
-          const int residual = int(u >= 0.125f) + int(u >= 0.25f) + int(u >= 0.5f);
-          const int angle = int(c <= cosines[0]) + int(c <= cosines[1]);
-          result = std::uint8_t(1 + Outcome::angle_bins * residual + angle);
-        }
-      }
+      const int is_there = is_near & int((d - r * t.normal).squaredNorm() < widest);
+      const int agrees = is_there & int(u < 1) & int(c > cosines[2]);
+      const int residual = int(u >= 0.125f) + int(u >= 0.25f) + int(u >= 0.5f);
+      const int angle = int(c <= cosines[0]) + int(c <= cosines[1]);
+      outcome[i] = std::uint8_t(agrees != 0 ? 1 + Outcome::angle_bins * residual + angle : is_there * Outcome::DISAGREES);
+      open[opens] = std::uint8_t(i);
+      opens += std::size_t(1 - agrees);
     }
-    if (is_known && (result == Outcome::UNKNOWN || result == Outcome::DISAGREES)) {
-      if (other.depths.in_front(p) > tolerance.free_depth) result = Outcome::IN_FREE_SPACE;
-      else if (result == Outcome::UNKNOWN && other.depths.is_empty(p)) {
+    if (!other.depths.is_known()) continue;
+    for (std::size_t k = 0; k < opens; ++k) {
+      const std::size_t i = open[k];
+      if (other.depths.in_front(places[i]) > tolerance.free_depth) outcome[i] = Outcome::IN_FREE_SPACE;
+      else if (outcome[i] == Outcome::UNKNOWN && other.depths.is_empty(places[i])) {
         // Within 60 degrees of the line of sight.
-        const Vector_f sight = other.depths.sight(p);
-        if (-sight.dot(n) > 0.5f * sight.norm()) result = Outcome::MISSING;
+        const Vector_f sight = other.depths.sight(places[i]);
+        if (-sight.dot(normals[i]) > 0.5f * sight.norm()) outcome[i] = Outcome::MISSING;
       }
     }
-    *outcome++ = result;
   }
 }
 

@@ -104,29 +104,19 @@ public:
 
   bool is_known() const { return m_kind != Flat_sensor::UNKNOWN; }
 
-  // How far `p` is in front of the surface that was seen behind it, along the line of sight; negative where it is
-  // behind the surface or nothing is known.
+  // How far `p` is in front of the surface that was seen behind it, along the line of sight; negative, or not a number,
+  // where it is behind the surface or nothing is known.
   float in_front(const Vector_f& p) const
   {
     const Vector_f q = project(p);
-    const float x = (q[0] - m_low_x) * m_scale, y = (q[1] - m_low_y) * m_scale;
-    const int is_inside =
-        int(x >= 0) & int(y >= 0) & int(x < float(m_columns)) & int(y < float(m_rows)); // not where it is NaN
-    const int i = int(is_inside != 0 ? x : 0),
-              j = int(is_inside != 0 ? y : 0); // a cell at the border, which knows nothing
-    const float depth = m_depths[std::size_t(i) * std::size_t(m_rows) + std::size_t(j)];
-    return is_inside != 0 ? depth - q[2] : -(std::numeric_limits<float>::max)();
+    return m_depths[cell(q)] - q[2];
   }
 
   // Whether `p` would have been seen at a place of the image where nothing was: no sample in its cell nor in those
   // around it.
   bool is_empty(const Vector_f& p) const
   {
-    if (m_is_empty.empty()) return false;
-    const Vector_f q = project(p);
-    const float x = (q[0] - m_low_x) * m_scale, y = (q[1] - m_low_y) * m_scale;
-    if (!(x >= 0 && y >= 0 && x < float(m_columns) && y < float(m_rows))) return false;
-    return m_is_empty[std::size_t(x) * std::size_t(m_rows) + std::size_t(y)] != 0;
+    return m_is_empty[cell(project(p))] != 0;
   }
 
   // The direction of the line of sight through p, of any length.
@@ -154,13 +144,10 @@ public:
   // Whether it can be looked into.
   bool is_consistent() const
   {
-    const bool is_image = m_columns > 0 && m_rows > 0 &&
-                          std::size_t(m_columns) * std::size_t(m_rows) == m_depths.size() &&
-                          m_is_empty.size() == m_depths.size();
-    return (m_kind == Flat_sensor::ORTHOGRAPHIC || m_kind == Flat_sensor::PERSPECTIVE)
-               ? is_image
-               : m_kind == Flat_sensor::UNKNOWN && !m_depths.empty() && m_is_empty.empty() && m_columns == 0 &&
-                     m_rows == 0;
+    const bool is_kind = m_kind == Flat_sensor::ORTHOGRAPHIC || m_kind == Flat_sensor::PERSPECTIVE ||
+                         m_kind == Flat_sensor::UNKNOWN;
+    return is_kind && m_columns > 0 && m_rows > 0 &&
+           std::size_t(m_columns) * std::size_t(m_rows) == m_depths.size() && m_is_empty.size() == m_depths.size();
   }
 
 private:
@@ -179,13 +166,23 @@ private:
     return q;
   }
 
+  // The cell of a projected point: an outermost one for what is outside of the image, or not a number.
+  std::size_t cell(const Vector_f& q) const
+  {
+    const auto coordinate = [&](float x, int cells) {
+      return std::size_t((std::min)((std::max)(0.f, x * m_scale), float(cells - 1)));
+    };
+    return coordinate(q[0] - m_low_x, m_columns) * std::size_t(m_rows) + coordinate(q[1] - m_low_y, m_rows);
+  }
+
   Flat_sensor::Kind m_kind = Flat_sensor::UNKNOWN;
   Vector_f m_viewpoint = Vector_f::Zero();
   Matrix_f m_axes = Matrix_f::Identity();
   float m_low_x = 0, m_low_y = 0, m_scale = 1;
-  int m_columns = 0, m_rows = 0;
-  std::vector<std::uint8_t> m_is_empty;
-  std::vector<float> m_depths = {-(std::numeric_limits<float>::max)()}; // at least one, that knows nothing
+  // The outermost cells, at least one, know nothing.
+  int m_columns = 1, m_rows = 1;
+  std::vector<std::uint8_t> m_is_empty = {0};
+  std::vector<float> m_depths = {-(std::numeric_limits<float>::max)()};
 };
 
 } // namespace internal

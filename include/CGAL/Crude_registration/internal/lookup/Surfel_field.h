@@ -87,8 +87,8 @@ public:
       if (!((p.array() >= 0).all() && (p.array() < m_size.array()).all())) continue; // far away, or not a number
       int from[3], to[3];
       for (int k = 0; k < 3; ++k) {
-        from[k] = (std::max)(0, int(std::ceil(p[k] - reach_in_voxels - 0.5f)));
-        to[k] = (std::min)(int(m_size[k]) - 1, int(std::floor(p[k] + reach_in_voxels - 0.5f)));
+        from[k] = (std::max)(1, int(std::ceil(p[k] - reach_in_voxels - 0.5f))); // the outermost ones stay empty
+        to[k] = (std::min)(int(m_size[k]) - 2, int(std::floor(p[k] + reach_in_voxels - 0.5f)));
       }
       // The voxels of a block follow each other along z: four at a time, without a branch.
       from[2] &= ~3;
@@ -121,16 +121,14 @@ public:
   }
 
   // The index of the surfel nearest to the centre of the voxel of `p`, or `none`. Without a branch: which voxels are
-  // empty cannot be foretold, and a wrong guess costs more than the look-up.
+  // empty cannot be foretold, and a wrong guess costs more than the look-up. What is outside, and what is not a number,
+  // falls on the outermost voxels, which are empty.
   int nearest(const Vector_f& p) const
   {
-    const float x = (p[0] - m_low[0]) * m_scale, y = (p[1] - m_low[1]) * m_scale, z = (p[2] - m_low[2]) * m_scale;
-    const int is_inside = int(x >= 0) & int(y >= 0) & int(z >= 0) & int(x < m_size[0]) & int(y < m_size[1]) &
-                          int(z < m_size[2]); // not where it is NaN
-    const int i = int(is_inside != 0 ? x : 0), j = int(is_inside != 0 ? y : 0), k = int(is_inside != 0 ? z : 0);
+    const int i = coordinate(p, 0), j = coordinate(p, 1), k = coordinate(p, 2);
     const auto block = std::size_t(m_block_of[block_index(i, j, k)]);
     const std::uint16_t s = m_voxels[block * 64 + voxel_index(i, j, k)];
-    return (is_inside & int(s != empty)) != 0 ? int(s) : none;
+    return s != empty ? int(s) : none;
   }
 
   // All that it consists of, `field` being it: f(part), for a writer and a reader.
@@ -151,7 +149,7 @@ public:
     const auto is_side = [](int n) { return n > 0 && n <= maximum_blocks; };
     if (!std::all_of(m_blocks.begin(), m_blocks.end(), is_side)) return false;
     for (int i = 0; i < 3; ++i)
-      if (!(m_size[i] >= 0 && m_size[i] <= float(4 * m_blocks[std::size_t(i)]))) return false;
+      if (!(m_size[i] >= 1 && m_size[i] <= float(4 * m_blocks[std::size_t(i)]))) return false;
     const std::size_t blocks = m_voxels.size() / 64;
     const auto is_block = [blocks](std::int32_t b) { return b >= 0 && std::size_t(b) < blocks; };
     const auto is_surfel = [surfels](std::uint16_t s) { return s == empty || s < surfels; };
@@ -175,6 +173,11 @@ private:
     return *middle;
   }
 
+  int coordinate(const Vector_f& p, int axis) const
+  {
+    return int((std::min)((std::max)(0.f, (p[axis] - m_low[axis]) * m_scale), m_size[axis] - 1));
+  }
+
   std::size_t block_index(int x, int y, int z) const
   {
     return (std::size_t(x >> 2) * std::size_t(m_blocks[1]) + std::size_t(y >> 2)) * std::size_t(m_blocks[2]) +
@@ -183,7 +186,7 @@ private:
   static std::size_t voxel_index(int x, int y, int z) { return std::size_t(((x & 3) << 4) | ((y & 3) << 2) | (z & 3)); }
 
   Vector_f m_low = Vector_f::Zero();
-  Vector_f m_size = Vector_f::Zero(); // in voxels
+  Vector_f m_size = Vector_f::Constant(4); // in voxels
   float m_scale = 1;
   std::array<int, 3> m_blocks{1, 1, 1};
   std::vector<std::int32_t> m_block_of{0};

@@ -130,9 +130,11 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   outcome.covariance = 0.5 * (covariance + covariance.transpose()); // to the last bit
 
   const double radius = 0.25 * source.extent;
-  std::vector<Vector_6> free =
-      find_free_motions(judge, is_of_many ? &Judged_pose::usual_log_odds : &Judged_pose::log_odds, own,
-                        refinement.covariance, own.translation, radius, double(source.coarse.spacing));
+  std::vector<Vector_6> free;
+  // What is not to be believed at all has no free motions.
+  if (probability_of_any(outcome.poses) >= plausible)
+    free = find_free_motions(judge, is_of_many ? &Judged_pose::usual_log_odds : &Judged_pose::log_odds, own,
+                             refinement.covariance, own.translation, radius, double(source.coarse.spacing));
   for (Vector_6& m : free) m = to_input * m;
   const Vector centre = outcome.target_frame.inverse()(own.translation);
   const Free_motions named = name_free_motions(free, outcome.is_swapped ? outcome.motion(centre) : centre, radius);
