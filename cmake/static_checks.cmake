@@ -7,9 +7,9 @@ file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp
 
 # Every header is compiled alone, twice in a row, with all warnings as errors: by clang++ where it is there, two to three
 # times faster at this than g++, which meets all headers in the programs. One file carries the compile flags of all.
-# The internal headers are taken as the compiled core declares them, and after what is compiled once for all of them; their
-# code, and whether they include what they use of other libraries, is met in the public ones, which have nothing before
-# them.
+# Each is taken as the compiled core declares it, so that what defines it (*_impl.h) has to include what it uses by itself;
+# the internal ones after what is compiled once for all of them, the public ones with nothing before them. The umbrella
+# header is compiled with all definitions.
 find_program(CRUDE_REGISTRATION_HEADER_COMPILER NAMES clang++-14 clang++)
 mark_as_advanced(CRUDE_REGISTRATION_HEADER_COMPILER)
 if(CRUDE_REGISTRATION_HEADER_COMPILER)
@@ -63,15 +63,14 @@ set(header_stamps "")
 set(all_headers "")
 foreach(header IN LISTS headers)
   string(APPEND all_headers "#include <${header}>\n")
-  if(header MATCHES "_impl\\.h$")
-    continue() # the header that is its door includes it
-  endif()
   string(MAKE_C_IDENTIFIER ${header} name)
   set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
-  set(options "")
-  if(header MATCHES "/internal/")
-    set(options AFTER_COMMON -DCGAL_CRUDE_REGISTRATION_COMPILED)
+  set(options -DCGAL_CRUDE_REGISTRATION_COMPILED)
+  if(header STREQUAL "CGAL/Crude_registration.h")
+    set(options "")
+  elseif(header MATCHES "/internal/|/all_headers.h$|/crude_registration.h$")
+    list(APPEND options AFTER_COMMON)
   endif()
   check_source(header_stamps ${name} ${source} "${header} alone" ${options})
 endforeach()
