@@ -15,6 +15,7 @@
 #include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
+#include <CGAL/Crude_registration/internal/lookup/Vertex_pair_index.h>
 #include <CGAL/Crude_registration/internal/matching/Oriented_pair_search.h>
 #include <CGAL/Crude_registration/internal/motion/refine_step.h>
 #include <CGAL/Crude_registration/motion/refine_motion.h>
@@ -179,6 +180,28 @@ void index_of_pairs(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * std::int64_t(size));
 }
 
+// The same pairs in the index of all lengths and any tolerances.
+void index_of_pairs_for_any_tolerance(benchmark::State& state)
+{
+  const CR::internal::Reduced_scan& target = input(state).target_scan.reduced();
+  const CR::internal::Oriented_pair_parameters parameters;
+  const double length = double(parameters.length(parameters.rounds.front().scales.front())) * target.extent,
+               half_width = double(parameters.target_half_width * target.coarse.spacing);
+  std::vector<CR::internal::Vector> points, normals;
+  for (const CR::internal::Surfel& s : target.coarse.surfels) {
+    points.push_back(s.position.cast<double>());
+    normals.push_back(s.normal.cast<double>());
+  }
+  const double angle_cell = CGAL_PI / 15; // as wide as the bins of the other one
+  std::size_t size = 0;
+  for (auto _ : state) {
+    const CR::internal::Vertex_pair_index index(points, normals, length - half_width, length + half_width, half_width,
+                                                angle_cell);
+    size = index.size();
+  }
+  state.SetItemsProcessed(state.iterations() * std::int64_t(size));
+}
+
 // Making the candidates of the first round and testing them by witnesses and scores; per look.
 void search_round(benchmark::State& state)
 {
@@ -287,6 +310,7 @@ BENCHMARK(simplification)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(benchmark::
 BENCHMARK(preparation_of_image)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(benchmark::kMillisecond);
 BENCHMARK(preparation_of_mesh)->Arg(10000)->Arg(40000)->Arg(160000)->Unit(benchmark::kMillisecond);
 BENCHMARK(index_of_pairs)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(index_of_pairs_for_any_tolerance)->Arg(40000)->Unit(benchmark::kMillisecond);
 BENCHMARK(search_round)->Arg(40000)->Unit(benchmark::kMillisecond);
 BENCHMARK(judgement_of_round)->Arg(40000)->Unit(benchmark::kMillisecond);
 BENCHMARK(judgement_of_pose)->Arg(40000)->Unit(benchmark::kMillisecond);

@@ -13,10 +13,12 @@
 #include "statue_views.h"
 
 #include <CGAL/Crude_registration/internal/motion/twist.h>
+#include <CGAL/Crude_registration/judge_motion.h>
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
+#include <CGAL/subdivision_method_3.h>
 
 #include <Eigen/Dense>
 
@@ -224,6 +226,80 @@ BOOST_AUTO_TEST_CASE(free_axes_by_direction)
     if (most.head<3>().norm() > 0.1) BOOST_TEST(angle_of_lines(most.head<3>(), axis) < 3);
     if (of_centre.norm() > 0.1) BOOST_TEST(angle_of_lines(of_centre, axis) < 3);
   }
+}
+
+namespace {
+
+// Each face in four that lie in it.
+struct Midpoints
+{
+  template <class Halfedge, class Point>
+  void edge_node(Halfedge h, Point& point) const
+  {
+    point = CGAL::midpoint(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
+  }
+  template <class Vertex, class Point>
+  void vertex_node(Vertex v, Point& point) const
+  {
+    point = mesh.point(v);
+  }
+  template <class Halfedge, class Point>
+  void border_node(Halfedge h, Point& edge, Point& vertex) const
+  {
+    edge_node(h, edge);
+    vertex = mesh.point(mesh.target(h));
+  }
+
+  const Mesh& mesh;
+};
+
+Mesh subdivided(Mesh mesh)
+{
+  // What is done twice makes ten vertices and more of one.
+  for (int i = 0; i < 2; ++i) {
+    const Mesh before = mesh;
+    CGAL::Subdivision_method_3::PTQ(mesh, Midpoints{before}, CGAL::parameters::number_of_iterations(1));
+  }
+  return mesh;
+}
+
+} // namespace
+
+// More vertices on the same surface are no more evidence: what is believed of the true motion changes by less than it
+// is known to be right by, which is what fit_confidence measured (the expected calibration error in
+// evidence_coefficients.h).
+BOOST_AUTO_TEST_CASE(subdivision_is_no_evidence)
+{
+  constexpr double calibration_error = 0.0178;
+  std::vector<const View*> views;
+  std::vector<Scan> plain, fine;
+  std::size_t vertices = 0, more = 0;
+  for (const int degrees : {0, 40, 75, 105, 150, 220}) {
+    views.push_back(&view(3, degrees));
+    Mesh mesh;
+    CR::triangulate_range_image(views.back()->image, mesh);
+    const Mesh many = subdivided(mesh);
+    vertices += mesh.number_of_vertices();
+    more += many.number_of_vertices();
+    plain.emplace_back(mesh);
+    fine.emplace_back(many);
+  }
+  BOOST_TEST(more > 10 * vertices);
+  double change = 0;
+  std::size_t pairs = 0, right = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i)
+    for (std::size_t j = i + 1; j < plain.size(); ++j, ++pairs) {
+      const auto motion = CR::internal::to_aff_transformation<Kernel>(true_motion(*views[i], *views[j]));
+      const auto of_plain = CR::judge_motion(plain[i], plain[j], motion),
+                 of_fine = CR::judge_motion(fine[i], fine[j], motion);
+      BOOST_TEST_MESSAGE("views " << i << " and " << j << ": " << of_plain.confidence() << ", subdivided "
+                                  << of_fine.confidence());
+      change += std::abs(of_plain.confidence() - of_fine.confidence());
+      right += of_plain.status() == CR::RIGHT_MOTION;
+    }
+  BOOST_TEST(right >= 4u);
+  BOOST_TEST(right < pairs);
+  BOOST_TEST(change / double(pairs) < calibration_error);
 }
 
 namespace {
