@@ -310,7 +310,7 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
   }
   const auto surface_of = [&](std::size_t i) {
     const Scan_file contents = read_scan(map, files[i]);
-    return surface_to_show(contents, viewpoint_of(contents, viewpoint), &scans[i]);
+    return surface_to_show(contents, &scans[i]);
   };
   if (const auto file = value_of<std::string>(map, "report"))
     write_assembly_report(
