@@ -118,8 +118,8 @@ public:
     png_set_write_fn(png, &file, append, nullptr);
     png_set_IHDR(png, info, png_uint_32(m_width), png_uint_32(m_height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    // The fastest, for a file a little larger.
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    // The fastest that makes no larger file than the default does, measured on pictures of scans.
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_level(png, 1);
     png_set_compression_strategy(png, 3); // Z_RLE of zlib
     png_set_compression_buffer_size(png, m_pixels.size() / 4);
@@ -133,7 +133,7 @@ public:
 
 private:
   static constexpr int fineness = 2; // so many samples a pixel, each way
-  static constexpr int rows_of_band = 50;
+  static constexpr int rows_of_band = 40;
 
   struct Place // in samples from the left and from the top; towards the viewer
   {
@@ -279,54 +279,49 @@ private:
       }
   }
 
+  // The first sample of a row, or row, whose middle is not before x: without a call of a rounding function.
+  static int first_middle(float x)
+  {
+    return int((std::max)(x, 0.F) + 0.5F);
+  }
+
   // The samples whose middles are in the triangle: from where one edge crosses a row to where another one does. Both
   // triangles at an edge compute the same crossing, so that there is no gap between them.
   void draw_triangle(const std::array<std::size_t, 3>& corners, Samples& samples) const
   {
-    const Place &a = m_places[corners[0]], &b = m_places[corners[1]], &c = m_places[corners[2]];
+    const Place *a = &m_places[corners[0]], *b = &m_places[corners[1]], *c = &m_places[corners[2]];
     const auto mean = [&](int shift) {
-      const std::uint32_t sum = (a.colour >> shift & 255) + (b.colour >> shift & 255) + (c.colour >> shift & 255);
+      const std::uint32_t sum = (a->colour >> shift & 255) + (b->colour >> shift & 255) + (c->colour >> shift & 255);
       return (2 * sum + 3) / 6 << shift; // rounded
     };
     const std::uint32_t colour = mean(0) | mean(8) | mean(16);
     // Of a triangle smaller than the distance of samples one of them stands for it.
-    const int ax = int(std::floor(a.x)), ay = int(std::floor(a.y));
-    if (ay >= samples.top && ay < samples.bottom && ax >= 0 && ax < samples.width) samples.put(ax, ay, a.depth, colour);
-    const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    const int ax = int(a->x), ay = int(a->y);
+    if (ay >= samples.top && ay < samples.bottom && ax >= 0 && ax < samples.width)
+      samples.put(ax, ay, a->depth, colour);
+    const float area = (b->x - a->x) * (c->y - a->y) - (c->x - a->x) * (b->y - a->y);
     if (!(std::abs(area) > 0)) return;
-    const float along_x = ((b.depth - a.depth) * (c.y - a.y) - (c.depth - a.depth) * (b.y - a.y)) / area;
-    const float along_y = ((c.depth - a.depth) * (b.x - a.x) - (b.depth - a.depth) * (c.x - a.x)) / area;
+    const float along_x = ((b->depth - a->depth) * (c->y - a->y) - (c->depth - a->depth) * (b->y - a->y)) / area;
+    const float along_y = ((c->depth - a->depth) * (b->x - a->x) - (b->depth - a->depth) * (c->x - a->x)) / area;
 
-    struct Edge
-    {
-      float top, bottom, x, slope;
-      explicit Edge(const Place& p, const Place& q)
-      {
-        const bool is_down = p.y < q.y || (p.y == q.y && p.x < q.x);
-        const Place &upper = is_down ? p : q, &lower = is_down ? q : p;
-        top = upper.y;
-        bottom = lower.y;
-        x = upper.x;
-        slope = lower.y > upper.y ? (lower.x - upper.x) / (lower.y - upper.y) : 0;
+    if (b->y < a->y) std::swap(a, b); // from the top down
+    if (c->y < b->y) std::swap(b, c);
+    if (b->y < a->y) std::swap(a, b);
+    const auto slope = [](const Place& p, const Place& q) { return q.y > p.y ? (q.x - p.x) / (q.y - p.y) : 0.F; };
+    const float whole = slope(*a, *c);
+    const float corner_depth = a->depth - a->x * along_x - a->y * along_y;
+    int y = (std::max)(first_middle(a->y), samples.top);
+    for (const auto& [p, q] : {std::make_pair(a, b), std::make_pair(b, c)}) {
+      const float part = slope(*p, *q);
+      const int end = (std::min)(first_middle(q->y), samples.bottom);
+      for (; y < end; ++y) {
+        const float middle = float(y) + 0.5F;
+        const float x1 = a->x + (middle - a->y) * whole, x2 = p->x + (middle - p->y) * part;
+        const int x_end = (std::min)(first_middle((std::max)(x1, x2)), samples.width);
+        const float row_depth = corner_depth + middle * along_y;
+        for (int x = first_middle((std::min)(x1, x2)); x < x_end; ++x)
+          samples.put(x, y, row_depth + (float(x) + 0.5F) * along_x, colour);
       }
-    };
-    const Edge edges[3] = {Edge(a, b), Edge(b, c), Edge(c, a)};
-    const auto first_middle = [](float x) { return int(std::ceil(x - 0.5F)); }; // not before x
-    const int first = (std::max)(first_middle((std::min)({a.y, b.y, c.y})), samples.top),
-              end = (std::min)(first_middle((std::max)({a.y, b.y, c.y})), samples.bottom);
-    for (int y = first; y < end; ++y) {
-      const float middle = float(y) + 0.5F;
-      float low = (std::numeric_limits<float>::max)(), high = -low;
-      for (const Edge& e : edges) {
-        if (middle < e.top || middle >= e.bottom) continue;
-        const float x = e.x + (middle - e.top) * e.slope;
-        low = (std::min)(low, x);
-        high = (std::max)(high, x);
-      }
-      if (!(low < high)) continue;
-      const int x_end = (std::min)(first_middle(high), samples.width);
-      for (int x = (std::max)(first_middle(low), 0); x < x_end; ++x)
-        samples.put(x, y, a.depth + (float(x) + 0.5F - a.x) * along_x + (middle - a.y) * along_y, colour);
     }
   }
 
@@ -385,7 +380,7 @@ inline std::string picture_of(std::vector<Surface> surfaces, bool have_common_fr
   for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].colour = colour_of_scan(i);
   const View view = view_of(surfaces);
   if (!have_common_frame) set_apart(surfaces, view);
-  constexpr int width = 1000, height = 800;
+  constexpr int width = 800, height = 640;
   Picture picture(width, height);
   picture.draw(surfaces, view);
   return picture.png();
