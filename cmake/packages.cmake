@@ -1,5 +1,6 @@
 # Debian packages, by `cpack -G DEB` in a build that was configured with -D CMAKE_INSTALL_PREFIX=/usr:
-# libcrude-registration-dev and crude-register.
+# libcrude-registration-dev, crude-register and, each where it is built, crude-register-mpi and
+# python3-crude-registration.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME crude-registration)
 set(CPACK_PACKAGE_VENDOR "The Crude_registration authors")
@@ -12,6 +13,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(TARGET crude_register_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL processes)
+endif()
 if(TARGET crude_registration_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
@@ -28,6 +32,16 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
 says how probable it is that the answer is right. It puts many scans
 together, judges the motion of another program, and writes the user's own
 files moved. No first guess and no parameter is needed.")
+
+# Its page of the manual is the one of the program, and mpirun starts it.
+set(CPACK_DEBIAN_PROCESSES_PACKAGE_NAME crude-register-mpi)
+set(CPACK_DEBIAN_PROCESSES_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROCESSES_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROCESSES_PACKAGE_DEPENDS "crude-register, openmpi-bin")
+set(CPACK_DEBIAN_PROCESSES_DESCRIPTION
+"The program puts many range scans together by the processes of an MPI run, on
+one machine or many: crude_register_mpi assemble takes what crude_register
+assemble takes, and answers the same.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcrude-registration-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

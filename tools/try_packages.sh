@@ -29,6 +29,14 @@ chroot "$root" sh -euc '
   crude_register simulate --output scans --samples 150
   crude_register register scans/scan_0.ply scans/scan_1.ply --apply moved.ply
   test -s moved.ply
+  ! command -v crude_register_mpi
+  ! command -v mpirun
+  if [ -e "$(echo /tmp/crude-register-mpi_*.deb)" ]; then
+    apt-get -q install -y --no-install-recommends /tmp/crude-register-mpi_*.deb
+    OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+      mpirun -n 2 --oversubscribe crude_register_mpi assemble scans --poses poses.txt
+    test -s poses.txt
+  fi
   apt-get -q install -y --no-install-recommends /tmp/libcrude-registration-dev_*.deb cmake make g++'
 rm -rf "$root/tmp/consumer"
 cp -r "$source_dir/test/consumer" "$root/tmp/consumer"
@@ -38,7 +46,7 @@ chroot "$root" sh -euc '
     -D EXPECTED_INCLUDE_DIR=/usr/include
   cmake --build /tmp/consumer/build
   /tmp/consumer/build/consumer /tmp/motion.txt
-  apt-get -q purge -y crude-register libcrude-registration-dev
+  apt-get -q purge -y "crude-register*" libcrude-registration-dev
   ! command -v crude_register
   test ! -e /usr/include/CGAL/Crude_registration'
 echo "the packages are installed, used and taken away"

@@ -92,7 +92,7 @@ std::vector<Scan> prepared_by(Workers& workers, std::size_t n)
 {
   std::vector<std::string> tasks;
   for (std::size_t i = 0; i < n; ++i) tasks.push_back("prepare " + std::to_string(i));
-  const std::vector<std::string> bytes = workers.answers(tasks, CRI::to_the_end());
+  const std::vector<std::string> bytes = workers.answers(tasks, [] { return true; });
   workers.give(bytes);
   std::vector<Scan> scans;
   for (const std::string& b : bytes) scans.push_back(CR::scan_from_bytes<Kernel>(b));
@@ -107,7 +107,8 @@ CRI::Round_registration registration_by(Workers& workers)
     for (const CRI::Input_pair& p : pairs)
       tasks.push_back("register " + std::to_string(p.source) + ' ' + std::to_string(p.target));
     std::vector<CRI::Pair_answer> answers;
-    for (const std::string& bytes : workers.answers(tasks, control)) answers.push_back(CRI::answer_of_bytes(bytes));
+    for (const std::string& bytes : workers.answers(tasks, [&control] { return control.go_on(); }))
+      answers.push_back(CRI::answer_of_bytes(bytes));
     return answers;
   };
 }
@@ -310,7 +311,7 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
   }
   const auto surface_of = [&](std::size_t i) {
     const Scan_file contents = read_scan(map, files[i]);
-    return surface_to_show(contents, viewpoint_of(contents, viewpoint), &scans[i]);
+    return surface_to_show(contents, &scans[i]);
   };
   if (const auto file = value_of<std::string>(map, "report"))
     write_assembly_report(

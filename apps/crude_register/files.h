@@ -23,8 +23,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <ios>
 #include <locale>
 #include <map>
 #include <optional>
@@ -173,6 +176,34 @@ inline void write_mesh(const std::string& file, const Mesh& mesh)
     CGAL::IO::set_binary_mode(out);
     CGAL::IO::write_PLY(out, mesh);
   });
+}
+
+// Triangles, as write_mesh() writes them: a fraction of the time.
+inline void write_triangles(const std::string& file, const std::vector<Point>& points,
+                            const std::vector<std::array<std::size_t, 3>>& triangles)
+{
+  const std::uint32_t one = 1;
+  std::uint8_t first_byte = 0;
+  std::memcpy(&first_byte, &one, 1);
+  std::string bytes = std::string("ply\nformat ") + (first_byte == 1 ? "binary_little_endian" : "binary_big_endian") +
+                      " 1.0\nelement vertex " + std::to_string(points.size()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                      std::to_string(triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  constexpr std::size_t bytes_of_point = 3 * sizeof(double), bytes_of_triangle = 1 + 3 * sizeof(std::int32_t);
+  std::size_t at = bytes.size();
+  bytes.resize(at + bytes_of_point * points.size() + bytes_of_triangle * triangles.size());
+  for (const Point& p : points) {
+    const std::array<double, 3> x = {p.x(), p.y(), p.z()};
+    std::memcpy(&bytes[at], x.data(), bytes_of_point);
+    at += bytes_of_point;
+  }
+  for (const auto& t : triangles) {
+    const std::array<std::int32_t, 3> corners = {std::int32_t(t[0]), std::int32_t(t[1]), std::int32_t(t[2])};
+    bytes[at] = char(3);
+    std::memcpy(&bytes[at + 1], corners.data(), 3 * sizeof(std::int32_t));
+    at += bytes_of_triangle;
+  }
+  CR::write_file(file, [&](std::ostream& out) { out.write(bytes.data(), std::streamsize(bytes.size())); });
 }
 
 inline void write_rows(std::ostream& out, const Transformation& motion, const char* indent, const char* end)

@@ -104,7 +104,9 @@ void write_page(const std::string& file, const std::array<Scan_of_a_side, 2>& si
   if (judgement.status() != CR::WRONG_MOTION)
     report.poses.push_back({"Refined", "What refinement makes of it.", refined.confidence(), refined.transformation()});
   add_rivals(refined, report.poses);
-  write_pair_report(file, report);
+  Pair_page page(std::move(report));
+  page.prepare();
+  page.write(file, {});
 }
 
 } // namespace

@@ -10,9 +10,7 @@
 #include "model_surface.h"
 
 #include <CGAL/Crude_registration/IO/write_file.h>
-#include <CGAL/Crude_registration/internal/assembly/Placed_scans.h>
-#include <CGAL/Crude_registration/internal/assembly/fuse_scans.h>
-#include <CGAL/Crude_registration/motion/refine_motion.h>
+#include <CGAL/Crude_registration/fused_points.h>
 
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/IO/PLY.h>
@@ -35,7 +33,6 @@
 
 namespace {
 
-namespace CRI = CR::internal;
 using Vector = Kernel::Vector_3;
 using Oriented_point = std::pair<Point, Vector>;
 using Face = std::array<std::size_t, 3>;
@@ -45,25 +42,6 @@ struct Soup
   std::vector<Point> points;
   std::vector<Face> faces;
 };
-
-std::vector<Oriented_point> fused_points(const CR::Assembly_result<Kernel>& result,
-                                         const std::vector<CR::Scan<Kernel>>& scans)
-{
-  std::vector<const CRI::Reduced_scan*> reduced;
-  std::vector<CRI::Rigid_motion> poses;
-  std::vector<std::size_t> component;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    reduced.push_back(&scans[i].reduced());
-    poses.push_back(CRI::to_rigid_motion(result.pose(i)) * scans[i].reduced().own_from_input.inverse());
-    if (result.component(i) == 0) component.push_back(i);
-  }
-  const CRI::Reduced_scan fused = CRI::fuse_scans(CRI::Placed_scans(reduced), component, poses, CRI::to_the_end());
-  std::vector<Oriented_point> points;
-  for (const CRI::Surfel& s : fused.fine.surfels)
-    points.emplace_back(Point(double(s.position[0]), double(s.position[1]), double(s.position[2])),
-                        Vector(double(s.normal[0]), double(s.normal[1]), double(s.normal[2])));
-  return points;
-}
 
 // Faces that look the way of most of their points' normals.
 void turn_outward(const std::vector<Oriented_point>& points, std::vector<Face>& faces)
@@ -130,7 +108,7 @@ void write_model_surface(const std::string& file, const std::string& method, con
                          const std::vector<CR::Scan<Kernel>>& scans)
 {
   CGAL::get_default_random() = CGAL::Random(0); // the same mesh every time
-  const std::vector<Oriented_point> points = fused_points(result, scans);
+  const std::vector<Oriented_point> points = CR::fused_points(result, scans);
   Soup soup = method == "poisson"       ? by_poisson(points)
               : method == "scale-space" ? by_scale_space(points)
                                         : by_advancing_front(points);

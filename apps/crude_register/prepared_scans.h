@@ -62,7 +62,7 @@ inline CR::Scan<Kernel> prepared_scan(const po::variables_map& map, const std::s
   const auto prepare = [&] {
     const Scan_file contents = read_scan(map, file);
     std::optional<CR::Scan<Kernel>> scan;
-    with_viewpoint(viewpoint_of(contents, viewpoint),
+    with_viewpoint(viewpoint,
                    [&](const auto& np) { scan.emplace(contents, np.visitor(Interruption_visitor()), file); });
     return *scan;
   };

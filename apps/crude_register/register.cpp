@@ -35,6 +35,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -171,30 +172,90 @@ Eigen::Matrix3d rotation_of(const Transformation& motion)
   return rotation;
 }
 
-Error error_of(const Transformation& answer, const Transformation& truth, const Mesh& source)
+Error error_of(const Transformation& answer, const Transformation& truth, const std::vector<Point>& source)
 {
   double sum = 0;
-  for (const Point& p : source.points())
-    sum += CGAL::squared_distance(answer.transform(p), truth.transform(p)) / double(source.number_of_vertices());
+  for (const Point& p : source)
+    sum += CGAL::squared_distance(answer.transform(p), truth.transform(p)) / double(source.size());
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(rotation_of(answer) * rotation_of(truth).transpose()));
   return {turn.angle() * 180 / CGAL_PI, std::sqrt(sum)};
 }
 
-// Writes both surfaces in the frame of the target, and the motion; the names of the files.
-std::vector<std::string> write_output(const std::string& folder, const Transformation& motion, Mesh source,
-                                      const Mesh& target)
+// What is written besides the answer. The files are made at the same time; what fails is told in the order in which
+// they were added.
+class Outputs
+{
+public:
+  void add(const std::string& file, std::function<void()> write) { m_outputs.push_back({file, std::move(write), {}}); }
+
+  // The names of the files.
+  std::vector<std::string> write()
+  {
+    CGAL::for_each<CGAL::Parallel_if_available_tag>(m_outputs, [](Output& output) {
+      try {
+        output.write();
+      } catch (...) {
+        output.failure = std::current_exception();
+      }
+      return true;
+    });
+    std::vector<std::string> files;
+    for (const Output& output : m_outputs) {
+      if (output.failure) std::rethrow_exception(output.failure);
+      if (!output.file.empty()) files.push_back(output.file);
+    }
+    return files;
+  }
+
+private:
+  struct Output
+  {
+    std::string file;
+    std::function<void()> write;
+    std::exception_ptr failure;
+  };
+  std::vector<Output> m_outputs;
+};
+
+// The vertices of the surface of a scan.
+std::vector<Point> vertices_of(const Side& side, const Surface& shown)
+{
+  if (side.contents.kind != Scan_file::POINTS) return shown.points;
+  const Mesh mesh = mesh_of(side.contents, side.viewpoint);
+  return std::vector<Point>(mesh.points().begin(), mesh.points().end());
+}
+
+// A surface as it is written: as the file has it if it is a mesh, else triangulated, moved.
+void write_surface(const std::string& file, const Side& side, const Surface& shown, const Transformation& motion)
+{
+  if (side.contents.kind == Scan_file::RANGE_IMAGE) {
+    std::vector<Point> points;
+    points.reserve(shown.points.size());
+    for (const Point& p : shown.points) points.push_back(p.transform(motion));
+    write_triangles(file, points, shown.triangles);
+  } else {
+    Mesh mesh = mesh_of(side.contents, side.viewpoint);
+    CGAL::Polygon_mesh_processing::transform(motion, mesh);
+    write_mesh(file, mesh);
+  }
+}
+
+// Both surfaces in the frame of the target, and the motion.
+void add_output(const std::string& folder, const std::array<Side, 2>& sides, const std::array<Surface, 2>& shown,
+                const Transformation& motion, Outputs& outputs)
 {
   make_folder(folder);
-  CGAL::Polygon_mesh_processing::transform(motion, source);
-  const std::vector<std::string> files = {in_folder(folder, "source_moved.ply"), in_folder(folder, "target.ply"),
-                                          in_folder(folder, "motion.txt")};
-  write_mesh(files[0], source);
-  write_mesh(files[1], target);
-  CR::write_file(files[2], [&](std::ostream& out) {
-    write_rows(out, motion, "", "\n");
-    out << "0 0 0 1\n";
+  const std::string names[2] = {in_folder(folder, "source_moved.ply"), in_folder(folder, "target.ply")};
+  for (std::size_t i = 0; i < 2; ++i)
+    outputs.add(names[i], [&, i, name = names[i]] {
+      write_surface(name, sides[i], shown[i], i == 0 ? motion : Transformation(CGAL::IDENTITY));
+    });
+  outputs.add(in_folder(folder, "motion.txt"), [&motion, name = in_folder(folder, "motion.txt")] {
+    CR::write_file(name, [&](std::ostream& out) {
+      write_rows(out, motion, "", "\n");
+      out << "0 0 0 1\n";
+    });
   });
-  return files;
 }
 
 // How the files were understood.
@@ -252,8 +313,8 @@ void print_text(const std::array<Side, 2>& sides, const Answer& answer, const st
 }
 
 // The answer on a page to look at.
-void write_page(const std::string& file, const std::array<Side, 2>& sides, const Result& result,
-                const std::optional<Error>& error, const std::string& hint)
+Pair_report report_of(const std::array<Side, 2>& sides, const Result& result, const std::optional<Error>& error,
+                      const std::string& hint)
 {
   const std::array<const Scan*, 2> scans = {sides[0].scan.get(), sides[1].scan.get()};
   Pair_report report{"register", {&sides[0], &sides[1]}, scans, verdict_of(result, hint), numbers_of(result, scans)};
@@ -262,10 +323,9 @@ void write_page(const std::string& file, const std::array<Side, 2>& sides, const
                               number_text(error->degrees) + " degrees, " + number_text(error->displacement) +
                                   " root mean square displacement",
                               "How far the answer is from the true motion of the file of poses."});
-  report.notes = notes_of(sides);
   report.poses = poses_of(result);
   report.have_common_frame = result.status() != CR::NOT_REGISTERED;
-  write_pair_report(file, report);
+  return report;
 }
 
 std::optional<po::variables_map> parse_register(const std::vector<std::string>& arguments)
@@ -344,39 +404,46 @@ int run_register(const std::vector<std::string>& arguments)
   const Result& result = answer.result;
 
   progress.begin_stage("writing");
-  std::optional<Error> error;
-  std::vector<std::string> written;
-  if (result.status() != CR::NOT_REGISTERED && (output || poses_file)) {
-    const Mesh source = mesh_of(sides[0].contents, sides[0].viewpoint);
-    if (poses_file) {
-      const auto s = poses.find(base_name(sides[0].file)), t = poses.find(base_name(sides[1].file));
-      if (s == poses.end() || t == poses.end()) throw CR::IO_error(*poses_file, "a pose of the two scans is missing");
-      error = error_of(result.transformation(), t->second.inverse() * s->second, source);
-    }
-    if (output)
-      written = write_output(*output, result.transformation(), source, mesh_of(sides[1].contents, sides[1].viewpoint));
-  }
-
-  if (applied && result.status() != CR::NOT_REGISTERED) {
-    const Transformation in_unit(CGAL::SCALING, sides[0].unit);
-    const std::string note =
-        apply(sides[0].file, *applied, result.transformation() * in_unit, sides[0].scan->spacing());
-    if (!note.empty()) sides[0].contents.notes.push_back(note);
-    written.push_back(*applied);
-  }
-
-  if (picture) {
-    std::vector<Surface> surfaces;
-    for (const Side& side : sides) surfaces.push_back(surface_to_show(side.contents, side.viewpoint, side.scan.get()));
-    move(surfaces[0], result.transformation());
-    write_picture(*picture, std::move(surfaces), result.status() != CR::NOT_REGISTERED);
-    written.push_back(*picture);
-  }
-
-  progress.clear();
+  const bool is_registered = result.status() != CR::NOT_REGISTERED;
+  const Transformation& motion = result.transformation();
   const std::string hint = result.status() == CR::REGISTERED ? "" : hint_of(sides);
+  std::array<Surface, 2> shown;
+  if (picture || (is_registered && (output || poses_file)))
+    CGAL::for_each<CGAL::Parallel_if_available_tag>(std::array<std::size_t, 2>{0, 1}, [&](std::size_t i) {
+      shown[i] = surface_to_show(sides[i].contents, sides[i].scan.get());
+      return true;
+    });
+  std::optional<Error> error;
+  if (is_registered && poses_file) {
+    const auto s = poses.find(base_name(sides[0].file)), t = poses.find(base_name(sides[1].file));
+    if (s == poses.end() || t == poses.end()) throw CR::IO_error(*poses_file, "a pose of the two scans is missing");
+    error = error_of(motion, t->second.inverse() * s->second, vertices_of(sides[0], shown[0]));
+  }
+
+  Outputs outputs;
+  if (output && is_registered) add_output(*output, sides, shown, motion, outputs);
+  std::string note;
+  if (applied && is_registered)
+    outputs.add(*applied, [&] {
+      const Transformation in_unit(CGAL::SCALING, sides[0].unit);
+      note = apply(sides[0].file, *applied, motion * in_unit, sides[0].scan->spacing());
+    });
+  if (picture)
+    outputs.add(*picture, [&] {
+      std::vector<Surface> surfaces(shown.begin(), shown.end());
+      move(surfaces[0], motion);
+      write_picture(*picture, std::move(surfaces), is_registered);
+    });
+  std::optional<Pair_page> page;
   if (report) {
-    write_page(*report, sides, result, error, hint);
+    page.emplace(report_of(sides, result, error, hint));
+    outputs.add("", [&] { page->prepare(); });
+  }
+  std::vector<std::string> written = outputs.write();
+  progress.clear();
+  if (!note.empty()) sides[0].contents.notes.push_back(note);
+  if (page) {
+    page->write(*report, notes_of(sides));
     written.push_back(*report);
   }
   if (map.count("json") > 0) print_json(sides, answer, error, written, hint, map.count("times") > 0);

@@ -172,7 +172,7 @@ void write_assembly_report(const std::string& file, const Assembly& result, cons
     }
     return std::make_pair(std::move(surfaces), is_after);
   });
-  write_report(file, "Assembly of " + std::to_string(scans.size()) + " scans", verdict, data, bytes, pictures);
+  write_report(file, "Assembly of " + std::to_string(scans.size()) + " scans", verdict, data, bytes.html(), pictures);
 }
 
 #endif // CRUDE_REGISTER_REPORT_ASSEMBLY_H

@@ -121,7 +121,7 @@ std::string static_pictures(const Function& surfaces)
 }
 
 inline void write_report(const std::string& file, const std::string& title, const Report_verdict& verdict,
-                         const Json& data, Report_bytes& bytes, const std::string& pictures)
+                         const Json& data, const std::string& blocks, const std::string& pictures)
 {
   const std::string name = escaped_html(Json::parse(to_text(Json(title)))); // bytes that are not UTF-8 replaced
   const std::vector<std::pair<std::string, std::string>> parts = {{"@TITLE@", name},
@@ -133,7 +133,7 @@ inline void write_report(const std::string& file, const std::string& title, cons
                                                                   {"@PICTURES@", pictures},
                                                                   {"@LICENCE@", escaped_html(three_licence_text())},
                                                                   {"@DATA@", json_in_html(data)},
-                                                                  {"@BYTES@", bytes.html()},
+                                                                  {"@BYTES@", blocks},
                                                                   {"@THREE@", three_js_text()},
                                                                   {"@SCRIPT@", page_js_text()}};
   const std::string page = page_html_text();

@@ -40,7 +40,6 @@ struct Pair_report
   std::array<const CR::Scan<Kernel>*, 2> scans; // null where there was no time to prepare one
   Report_verdict verdict;
   std::vector<Report_number> numbers;
-  std::vector<std::string> notes = {};
   std::vector<Report_pose> poses =
       {};                         // the first is looked at first; of no scans that are not registered there may be none
   bool have_common_frame = false; // the first pose is one that may be believed
@@ -205,53 +204,74 @@ inline Report_verdict verdict_of(const CR::Motion_judgement<Kernel>& judgement)
           "Neither it nor what refinement makes of it can be told from chance: " + refined.reason() + "."};
 }
 
-inline void write_pair_report(const std::string& file, const Pair_report& report)
+// The page, made in two steps: what takes time, and what is known last.
+class Pair_page
 {
-  const double spacing = coarser_spacing(report.scans), reach = CR::Judgement_limits::residual_reach * spacing;
-  std::vector<Report_scan> scans;
-  for (std::size_t i = 0; i < 2; ++i) {
-    Report_scan scan{base_name(report.sides[i]->file), report.scans[i]};
-    scan.points = points_of(report.sides[i]->contents);
-    scans.push_back(std::move(scan));
-  }
-  thin_out(scans, report.poses.size());
+public:
+  explicit Pair_page(Pair_report report) : m_report(std::move(report)) {}
 
-  Report_bytes bytes;
-  Json data = {{"kind", "pair"}, {"command", report.command}, {"verdict", to_json(report.verdict)}};
-  data["spacing"] = spacing;
-  data["reach_in_spacings"] = CR::Judgement_limits::residual_reach;
-  data["free_space_depth_in_spacings"] = CR::Judgement_limits::free_space_depth;
-  data["steps_of_reach"] = steps_of_reach;
-  data["have_common_frame"] = report.have_common_frame;
-  data["notes"] = report.notes;
-  data["numbers"] = to_json(report.numbers);
-  for (std::size_t i = 0; i < 2; ++i) {
-    Json scan = add_scan(scans[i], i, bytes);
-    scan["role"] = i == 0 ? "source" : "target";
-    data["scans"].push_back(scan);
-  }
-  data["poses"] = Json::array();
-  for (std::size_t k = 0; k < report.poses.size(); ++k) {
-    const Report_pose& pose = report.poses[k];
-    data["poses"].push_back(
-        {{"name", pose.name}, {"meaning", pose.meaning}, {"motions", {to_json(pose.motion), nullptr}}});
-    if (pose.probability) data["poses"].back()["probability"] = *pose.probability;
-    for (std::size_t i = 0; i < 2; ++i)
-      bytes.add("met_" + std::to_string(k) + "_" + std::to_string(i), [&scans, &pose, reach, i] {
-        const Other_scan other{scans[1 - i].scan, i == 0 ? pose.motion : pose.motion.inverse()};
-        return packed_meetings(meetings_of(scans[i], {other}), reach);
-      });
+  void prepare()
+  {
+    for (std::size_t i = 0; i < 2; ++i) {
+      Report_scan scan{base_name(m_report.sides[i]->file), m_report.scans[i]};
+      scan.points = points_of(m_report.sides[i]->contents);
+      m_scans.push_back(std::move(scan));
+    }
+    thin_out(m_scans, m_report.poses.size());
+    add_data();
+    m_blocks = m_bytes.html();
+    m_pictures = static_pictures([&](bool is_after) {
+      std::vector<Surface> surfaces;
+      for (std::size_t i = 0; i < 2; ++i)
+        surfaces.push_back(surface_to_show(m_report.sides[i]->contents, m_report.scans[i]));
+      const bool is_together = is_after && m_report.have_common_frame;
+      if (is_together) move(surfaces[0], m_report.poses.front().motion);
+      return std::make_pair(std::move(surfaces), is_together);
+    });
   }
 
-  const std::string pictures = static_pictures([&](bool is_after) {
-    std::vector<Surface> surfaces;
-    for (std::size_t i = 0; i < 2; ++i)
-      surfaces.push_back(surface_to_show(report.sides[i]->contents, report.sides[i]->viewpoint, report.scans[i]));
-    const bool is_together = is_after && report.have_common_frame;
-    if (is_together) move(surfaces[0], report.poses.front().motion);
-    return std::make_pair(std::move(surfaces), is_together);
-  });
-  write_report(file, scans[0].name + " to " + scans[1].name, report.verdict, data, bytes, pictures);
-}
+  // `notes`: how the files were understood, and how what else was written has to be.
+  void write(const std::string& file, const std::vector<std::string>& notes)
+  {
+    m_data["notes"] = notes;
+    write_report(file, m_scans[0].name + " to " + m_scans[1].name, m_report.verdict, m_data, m_blocks, m_pictures);
+  }
+
+private:
+  void add_data()
+  {
+    const double spacing = coarser_spacing(m_report.scans), reach = CR::Judgement_limits::residual_reach * spacing;
+    m_data = {{"kind", "pair"}, {"command", m_report.command}, {"verdict", to_json(m_report.verdict)}};
+    m_data["spacing"] = spacing;
+    m_data["reach_in_spacings"] = CR::Judgement_limits::residual_reach;
+    m_data["free_space_depth_in_spacings"] = CR::Judgement_limits::free_space_depth;
+    m_data["steps_of_reach"] = steps_of_reach;
+    m_data["have_common_frame"] = m_report.have_common_frame;
+    m_data["numbers"] = to_json(m_report.numbers);
+    for (std::size_t i = 0; i < 2; ++i) {
+      Json scan = add_scan(m_scans[i], i, m_bytes);
+      scan["role"] = i == 0 ? "source" : "target";
+      m_data["scans"].push_back(scan);
+    }
+    m_data["poses"] = Json::array();
+    for (std::size_t k = 0; k < m_report.poses.size(); ++k) {
+      const Report_pose& pose = m_report.poses[k];
+      m_data["poses"].push_back(
+          {{"name", pose.name}, {"meaning", pose.meaning}, {"motions", {to_json(pose.motion), nullptr}}});
+      if (pose.probability) m_data["poses"].back()["probability"] = *pose.probability;
+      for (std::size_t i = 0; i < 2; ++i)
+        m_bytes.add("met_" + std::to_string(k) + "_" + std::to_string(i), [this, &pose, reach, i] {
+          const Other_scan other{m_scans[1 - i].scan, i == 0 ? pose.motion : pose.motion.inverse()};
+          return packed_meetings(meetings_of(m_scans[i], {other}), reach);
+        });
+    }
+  }
+
+  Pair_report m_report;
+  std::vector<Report_scan> m_scans;
+  Report_bytes m_bytes;
+  Json m_data;
+  std::string m_blocks, m_pictures;
+};
 
 #endif // CRUDE_REGISTER_REPORT_PAIR_H

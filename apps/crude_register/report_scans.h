@@ -92,12 +92,21 @@ inline std::string to_base64(const std::string& bytes)
 {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text(4 * ((bytes.size() + 2) / 3), '=');
-  for (std::size_t i = 0, j = 0; i < bytes.size(); i += 3, j += 4) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : std::uint8_t(0));
-    const std::size_t used = (std::min)(std::size_t(3), bytes.size() - i);
-    for (std::size_t k = 0; k <= used; ++k) text[j + k] = digits[three >> (18 - 6 * k) & 63];
+  const auto byte = [&](std::size_t i) { return std::uint32_t(std::uint8_t(bytes[i])); };
+  std::size_t i = 0, j = 0;
+  for (; i + 3 <= bytes.size(); i += 3, j += 4) {
+    const std::uint32_t three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    text[j] = digits[three >> 18];
+    text[j + 1] = digits[three >> 12 & 63];
+    text[j + 2] = digits[three >> 6 & 63];
+    text[j + 3] = digits[three & 63];
+  }
+  if (i < bytes.size()) { // one or two bytes are left: two or three characters
+    const bool are_two = i + 1 < bytes.size();
+    const std::uint32_t three = byte(i) << 16 | (are_two ? byte(i + 1) << 8 : 0);
+    text[j] = digits[three >> 18];
+    text[j + 1] = digits[three >> 12 & 63];
+    if (are_two) text[j + 2] = digits[three >> 6 & 63];
   }
   return text;
 }

@@ -14,6 +14,7 @@
 #include "options.h"
 
 #include <CGAL/Crude_registration/Scan.h>
+#include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
 
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
@@ -89,19 +90,21 @@ inline std::vector<Direction> normals_at(const std::vector<Point>& points, const
 }
 
 // All of a scan for a picture: with triangles, but where it is points alone.
-inline Surface surface_to_show(const Scan_file& file, const std::optional<Point>& viewpoint,
-                               const CR::Scan<Kernel>* scan)
+inline Surface surface_to_show(const Scan_file& file, const CR::Scan<Kernel>* scan)
 {
   Surface surface;
   if (file.kind == Scan_file::POINTS) {
     surface.points = file.points;
     surface.normals = normals_at(surface.points, scan);
     if (scan != nullptr) surface.spacing = scan->spacing();
+  } else if (file.kind == Scan_file::RANGE_IMAGE) {
+    CR::triangulate_range_image(file.image, surface.points, surface.triangles);
   } else {
-    const Mesh mesh = mesh_of(file, viewpoint);
+    const Mesh& mesh = file.mesh;
     surface.points.assign(mesh.points().begin(), mesh.points().end());
+    std::vector<std::size_t> corners;
     for (const auto f : mesh.faces()) {
-      std::vector<std::size_t> corners;
+      corners.clear();
       for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) corners.push_back(std::size_t(v));
       for (std::size_t k = 2; k < corners.size(); ++k)
         surface.triangles.push_back({corners[0], corners[k - 1], corners[k]});

@@ -10,8 +10,6 @@
 
 // The processes of a run that do the tasks of an assembly, as the command assemble sees them.
 
-#include <CGAL/Crude_registration/internal/base/Run_control.h>
-
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -40,9 +38,10 @@ public:
   virtual void serve(const Assembly_tasks& tasks) = 0;
 
   // The answers of tasks, in their order, whichever process does them; of several failures the first is thrown. Fewer
-  // answers where the run was stopped. `task`: the words that serve() understands.
+  // answers where the run was stopped: `go_on()`, which is asked now and then, says no from then on. `tasks`: the words
+  // that serve() understands.
   virtual std::vector<std::string> answers(const std::vector<std::string>& tasks,
-                                           CGAL::Crude_registration::internal::Run_control& control) = 0;
+                                           const std::function<bool()>& go_on) = 0;
 
   // All others take the scans.
   virtual void give(const std::vector<std::string>& scans) = 0;

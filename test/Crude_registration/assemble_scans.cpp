@@ -13,6 +13,7 @@
 #include "statue_views.h"
 
 #include <CGAL/Crude_registration/assemble_scans.h>
+#include <CGAL/Crude_registration/fused_points.h>
 #include <CGAL/Crude_registration/internal/assembly/Pair_plan.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -20,6 +21,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -133,6 +135,46 @@ BOOST_AUTO_TEST_CASE(views_around_a_body_are_one_model)
     BOOST_TEST(o.overlap <= 1);
     BOOST_TEST((std::max(o.source, o.target) - std::min(o.source, o.target) != 4 || o.overlap < 0.1));
   }
+}
+
+BOOST_AUTO_TEST_CASE(fused_points_are_all_of_the_surfaces_and_nothing_else)
+{
+  const Set set = views_of(0, {0, 45, 90});
+  const Assembly result = CR::assemble_scans(set.scans);
+  BOOST_TEST_REQUIRE(result.number_of_components() == 1u);
+  const auto fused = CR::fused_points(result, set.scans);
+  std::vector<std::pair<Kernel::Point_3, Kernel::Vector_3>> all;
+  double spacing = 0;
+  for (std::size_t i = 0; i < set.scans.size(); ++i) {
+    const std::vector<Kernel::Point_3> points = set.scans[i].points();
+    const std::vector<Kernel::Vector_3> normals = set.scans[i].normals();
+    for (std::size_t k = 0; k < points.size(); ++k)
+      all.emplace_back(points[k].transform(result.pose(i)), normals[k].transform(result.pose(i)));
+    spacing = (std::max)(spacing, 2 * set.scans[i].extent() / std::sqrt(double(points.size())));
+  }
+  const auto nearest = [](const auto& from, const auto& to, std::size_t step, auto check) {
+    for (std::size_t i = 0; i < from.size(); i += step) {
+      const auto* closest = &to.front();
+      for (const auto& t : to)
+        if (CGAL::squared_distance(t.first, from[i].first) < CGAL::squared_distance(closest->first, from[i].first))
+          closest = &t;
+      check(from[i], *closest);
+    }
+  };
+  std::size_t looked_at = 0, near = 0, alike = 0;
+  const auto count = [&](const auto& a, const auto& b) {
+    ++looked_at;
+    near += CGAL::squared_distance(a.first, b.first) < spacing * spacing;
+    alike += a.second * b.second > 0.5;
+    BOOST_TEST(std::abs(a.second.squared_length() - 1) < 1e-3);
+  };
+  nearest(fused, all, 7, count);
+  nearest(all, fused, 7, count);
+  BOOST_TEST(looked_at > 100u);
+  BOOST_TEST(near == looked_at);
+  BOOST_TEST(double(alike) > 0.95 * double(looked_at));
+  BOOST_TEST(CR::fused_points(result, set.scans, 1).empty());
+  BOOST_CHECK_THROW(CR::fused_points(result, {set.scans[0]}), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(the_order_of_the_scans_does_not_matter)

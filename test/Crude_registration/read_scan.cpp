@@ -579,6 +579,7 @@ BOOST_AUTO_TEST_CASE(ply_files_without_a_grid)
   BOOST_TEST(are(read("ply.txt", header + "end_header\n" + points), three)); // by its content
   BOOST_TEST(are(
       read("p.ply", header + "element face 0\nproperty list uchar int vertex_indices\nend_header\n" + points), three));
+  BOOST_TEST(are(read("p.ply", header + "element face 0\nend_header\n" + points), three));
   const Scan mesh = read("p.ply", header + "element face 1\nproperty list uchar int vertex_index\nend_header\n" +
                                       points + "3 0 1 2\n");
   BOOST_TEST((mesh.kind == Scan::MESH));

@@ -44,6 +44,20 @@ Mesh triangulated(const Image& image)
 {
   Mesh mesh;
   CR::triangulate_range_image(image, mesh);
+  // The soup is the same, in the same order.
+  std::vector<Point> points = {Point(9, 9, 9)};
+  std::vector<std::array<std::size_t, 3>> soup = {{0, 0, 0}};
+  CR::triangulate_range_image(image, points, soup);
+  BOOST_TEST((points.size() == mesh.number_of_vertices() && soup.size() == mesh.number_of_faces()));
+  for (Mesh::Face_index f : mesh.faces()) {
+    std::multiset<std::size_t> corners;
+    for (Mesh::Vertex_index v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) {
+      corners.insert(std::size_t(v));
+      BOOST_TEST((points.at(std::size_t(v)) == mesh.point(v)));
+    }
+    const auto& t = soup.at(std::size_t(f));
+    BOOST_TEST((corners == std::multiset<std::size_t>(t.begin(), t.end())));
+  }
   return mesh;
 }
 

@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -79,8 +80,7 @@ public:
     }
   }
 
-  std::vector<std::string> answers(const std::vector<std::string>& tasks,
-                                   CGAL::Crude_registration::internal::Run_control& control) override
+  std::vector<std::string> answers(const std::vector<std::string>& tasks, const std::function<bool()>& go_on) override
   {
     std::vector<std::string> answers(tasks.size());
     std::optional<std::size_t> failed;
@@ -88,14 +88,17 @@ public:
     std::size_t next = 0;
     while (next < tasks.size() || !m_busy.empty()) {
       // In their order: those before the first that fails are all begun before it is known.
-      while (next < tasks.size() && !m_idle.empty() && !failed && control.go_on()) {
+      while (next < tasks.size() && !m_idle.empty() && !failed && go_on()) {
         const int rank = *m_idle.begin();
         m_idle.erase(m_idle.begin());
         m_busy[rank] = next;
         m_world.send(rank, TASK, tasks[next++]);
       }
       if (m_busy.empty()) break;
-      const auto message = wait([&] { return control.go_on() || control.is_stopped(); });
+      const auto message = wait([&] {
+        go_on();
+        return true; // what was begun is waited for
+      });
       const std::size_t task = m_busy.at(message->source());
       const bool is_done = message->tag() == DONE;
       std::string text = receive(message);

@@ -138,12 +138,18 @@ function corners_of(scan) {
   return corners;
 }
 
+// Of the points of one of so many scans every n-th is looked at where all would take too long.
+function step_of(scan, some) {
+  const most = 40000;
+  return Math.max(1, Math.floor((scan.count * some.length) / most));
+}
+
 // The box, in a frame to which `motion(scan)` leads, of points of some scans.
 function bounds_of(some, motion) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const scan of some) {
     const m = product(motion(scan), scan.box);
-    const step = Math.max(1, Math.floor(scan.count / 4000));
+    const step = step_of(scan, some);
     for (let i = 0; i < scan.count; i += step) {
       const p = [0, 1, 2].map((k) => scan.places[3 * i + k] / most_of_places);
       const q = apply(m, p);

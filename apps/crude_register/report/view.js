@@ -72,9 +72,9 @@ function placed(scan) {
 function view_directions() {
   let sum = [0, 0, 0], number = 0;
   const motion = state.layout === "together" ? motion_of : () => identity;
-  for (const scan of shown_scans()) {
-    const m = motion(scan);
-    const step = Math.max(1, Math.floor(scan.count / 2000));
+  const some = shown_scans();
+  for (const scan of some) {
+    const m = motion(scan), step = step_of(scan, some);
     for (let i = 0; i < scan.count; i += step) {
       const n = normal_of(scan, i);
       if (!n) continue;
@@ -151,7 +151,7 @@ function make_view() {
   let to_scene = { centre: [0, 0, 0], scale: 1 }; // scene from the common frame
   let is_asked_for = false, marked = null;
   // Where all points take too long to follow the hand, a part of them is drawn until it rests; and at first.
-  const first_points = 150000, quick_ms = 80, rest_ms = 250;
+  const first_points = 50000, quick_ms = 80, rest_ms = 250;
   let points_a_ms = first_points / quick_ms, is_moving = true, resting = null;
 
   canvas.addEventListener("webglcontextlost", (e) => {
@@ -331,8 +331,9 @@ function make_view() {
     const axes = new THREE.Matrix4().makeBasis(...["right", "up", "towards"].map((d) => new THREE.Vector3(...directions[d])));
     view.turn.setFromRotationMatrix(axes);
     const ranges = ["right", "up", "towards"].map(() => [Infinity, -Infinity]);
-    for (const scan of shown_scans()) {
-      const m = placed(scan), step = Math.max(1, Math.floor(scan.count / 2000));
+    const some = shown_scans();
+    for (const scan of some) {
+      const m = placed(scan), step = step_of(scan, some);
       for (let i = 0; i < scan.count; i += step) {
         const p = in_scene(apply(m, point_of(scan, i)));
         ["right", "up", "towards"].forEach((d, k) => {

@@ -34,6 +34,7 @@
 #include <CGAL/Crude_registration/judge_motion.h>
 #include <CGAL/Crude_registration/assemble_scans.h>
 #include <CGAL/Crude_registration/compare_points.h>
+#include <CGAL/Crude_registration/fused_points.h>
 #include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
 #include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
 #include <CGAL/Crude_registration/matching/Trihedron_candidates.h>

@@ -23,6 +23,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -78,6 +80,7 @@ std::vector<Compared_point<Kernel>> compare_points(const PointRange& points, con
   const double reach =
       (std::max)(double(to.fine.spacing), Judgement_limits::residual_reach * (std::max)(from.spacing, to.spacing));
   std::vector<Compared_point<Kernel>> met;
+  met.reserve(static_cast<std::size_t>(std::distance(std::begin(points), std::end(points))));
   for (const auto& point : points) {
     Compared_point<Kernel> m;
     const internal::Vector p = own(internal::to_vector(point));

@@ -21,8 +21,25 @@
 #include <CGAL/Crude_registration/internal/mesh/add_flat_mesh.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 
+#include <array>
+#include <cstddef>
+#include <vector>
+
 namespace CGAL {
 namespace Crude_registration {
+namespace internal {
+
+template <class Kernel, class NamedParameters>
+Flat_mesh flat_triangulation_of(const Range_image<Kernel>& image, const NamedParameters& np)
+{
+  const double ratio = positive_parameter(np, internal_np::maximum_edge_ratio, default_maximum_edge_ratio,
+                                          "triangulate_range_image", "maximum_edge_ratio");
+  Flat_range_image flat(image);
+  if (!image.sensor().is_known()) flat.sensor = estimated_sensor(flat);
+  return flat_triangulation(flat, sampling(flat), ratio);
+}
+
+} // namespace internal
 
 /*!
 \ingroup PkgCrudeRegistrationRef
@@ -71,12 +88,39 @@ template <class Kernel, class FaceGraph, class NamedParameters = parameters::Def
 void triangulate_range_image(const Range_image<Kernel>& image, FaceGraph& mesh,
                              const NamedParameters& np = parameters::default_values())
 {
-  const double ratio =
-      internal::positive_parameter(np, internal_np::maximum_edge_ratio, internal::default_maximum_edge_ratio,
-                                   "triangulate_range_image", "maximum_edge_ratio");
-  internal::Flat_range_image flat(image);
-  if (!image.sensor().is_known()) flat.sensor = internal::estimated_sensor(flat);
-  internal::add_flat_mesh(internal::flat_triangulation(flat, internal::sampling(flat), ratio), mesh, np);
+  internal::add_flat_mesh(internal::flat_triangulation_of(image, np), mesh, np);
+}
+
+/*!
+\ingroup PkgCrudeRegistrationRef
+
+\brief triangulates a range image over its grid, like the function above, to a polygon soup: points and, for each
+triangle, the indices of its three points. It takes a fraction of the time.
+
+\tparam Kernel a model of `Kernel`
+\tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+\param image the range image
+\param points the points; they are replaced
+\param triangles the triangles; they are replaced
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters": `maximum_edge_ratio` as above
+
+\throws std::invalid_argument if `maximum_edge_ratio` is not a finite number above zero.
+*/
+template <class Kernel, class NamedParameters = parameters::Default_named_parameters>
+void triangulate_range_image(const Range_image<Kernel>& image, std::vector<typename Kernel::Point_3>& points,
+                             std::vector<std::array<std::size_t, 3>>& triangles,
+                             const NamedParameters& np = parameters::default_values())
+{
+  const internal::Flat_mesh mesh = internal::flat_triangulation_of(image, np);
+  points.clear();
+  points.reserve(mesh.points.size());
+  for (const internal::Vector& p : mesh.points) points.emplace_back(p.x(), p.y(), p.z());
+  triangles.clear();
+  triangles.reserve(mesh.faces.size());
+  for (const auto& f : mesh.faces)
+    triangles.push_back(
+        {static_cast<std::size_t>(f[0]), static_cast<std::size_t>(f[1]), static_cast<std::size_t>(f[2])});
 }
 
 } // namespace Crude_registration

@@ -233,6 +233,7 @@ private:
       } else if (e.name == "range_grid" || e.name == "face") {
         Ply_property* p = e.find("vertex_indices");
         if (p == nullptr) p = e.find("vertex_index");
+        if (p == nullptr && e.name == "face" && e.count == 0) continue; // as PCL's tools write points
         if (p == nullptr || !p->is_list || p->type == Ply_type::FLOAT32 || p->type == Ply_type::FLOAT64)
           throw IO_error(m_file, e.line, "the element '" + e.name + "' has no list of integers 'vertex_indices'");
         p->role = Ply_role::INDICES;
