@@ -11,8 +11,8 @@
 
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/fused_points.h>
+#include <CGAL/Crude_registration/sampling/join_points.h>
 
-#include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/Point_set_3.h>
 #include <CGAL/Random.h>
@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -56,7 +55,7 @@ Soup by_advancing_front(const std::vector<Oriented_point>& points)
 {
   Soup soup;
   for (const Oriented_point& p : points) soup.points.push_back(p.first);
-  CGAL::advancing_front_surface_reconstruction(soup.points.begin(), soup.points.end(), std::back_inserter(soup.faces));
+  soup.faces = CR::join_points(soup.points);
   turn_outward(points, soup.faces);
   return soup;
 }

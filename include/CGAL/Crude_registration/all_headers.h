@@ -52,6 +52,7 @@
 #include <CGAL/Crude_registration/register_meshes.h>
 #include <CGAL/Crude_registration/register_scans.h>
 #include <CGAL/Crude_registration/sampling/estimate_sensor.h>
+#include <CGAL/Crude_registration/sampling/join_points.h>
 #include <CGAL/Crude_registration/sampling/sampling_distance.h>
 #include <CGAL/Crude_registration/sampling/triangulate_points.h>
 #include <CGAL/Crude_registration/sampling/triangulate_range_image.h>
