@@ -57,8 +57,8 @@ struct Options
 {
   std::string output;
   unsigned seed = 5;
-  std::size_t samples = 110; // columns, and rows
-  double degrees = 40;
+  std::size_t samples = 200; // columns, and rows
+  double degrees = 45;
 };
 
 template <class Range, class Function>
@@ -180,13 +180,13 @@ void write_match(std::ostream& out, const Stages& source, const Stages& target, 
 // What the judge sees of the source's surfels under a motion: 0 agrees, 1 disagrees, 2 in free space, 3 missing, -1
 // unknown.
 void write_judged(std::ostream& out, const CR::Scan<Kernel>& source, const CR::Scan<Kernel>& target,
-                  const CRI::Judged_pose& judged, const CRI::Pose& pose, const char* of)
+                  const CRI::Judged_pose& judged, const CRI::Pose& pose)
 {
   const CRI::Reduced_scan &s = source.reduced(), &t = target.reduced();
   const float free_depth = float(CR::Judgement_limits::free_space_depth * (std::max)(s.spacing, t.spacing));
   std::vector<std::uint8_t> outcomes(s.fine.surfels.size());
   CRI::probe_outcomes(s.fine.surfels, t, pose, CRI::probe_tolerance(s.fine, t.fine, free_depth), outcomes.data());
-  out << "{\"of\":\"" << of << "\",\"probability\":" << judged.probability << ",\"motion\":";
+  out << "{\"probability\":" << judged.probability << ",\"motion\":";
   write_motion(out, CRI::to_aff_transformation<Kernel>(t.own_from_input.inverse() * CRI::to_rigid_motion(pose) *
                                                        s.own_from_input));
   std::vector<Kernel::Point_3> points;
@@ -202,24 +202,36 @@ void write_judged(std::ostream& out, const CR::Scan<Kernel>& source, const CR::S
   out << '}';
 }
 
+// All rounds are made, though the first one may be enough: the best of what they have tried elsewhere is the rival.
 void write_candidates(std::ostream& out, const CR::Scan<Kernel>& source, const CR::Scan<Kernel>& target)
 {
   const CRI::Reduced_scan &s = source.reduced(), &t = target.reduced();
   const auto candidates = CR::Oriented_pair_candidates().candidates(s, t, CRI::Execution::SEQUENTIAL);
   CRI::Pose_judge judge(s, t, CRI::Execution::SEQUENTIAL, CRI::to_the_end());
-  CRI::Proposals proposals;
-  if (!candidates->next(CRI::to_the_end(), proposals)) throw std::runtime_error("nothing is proposed");
-  const std::size_t tried = proposals.tried.size();
-  judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
-  const auto poses = judge.distinct_poses();
-  out << "{\"tried\":" << tried << ",\"distinct\":" << judge.candidates().size() << ",\"judged\":[";
-  for (std::size_t i = 0; i < (std::min)(poses.size(), std::size_t(4)); ++i) {
-    if (i > 0) out << ',';
-    write_judged(out, source, target, poses[i], poses[i].proposed, "proposed");
-    out << ',';
-    write_judged(out, source, target, poses[i], poses[i].pose, "refined");
+  std::size_t tried = 0;
+  for (CRI::Proposals proposals; candidates->next(CRI::to_the_end(), proposals); proposals = CRI::Proposals()) {
+    tried += proposals.tried.size();
+    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
   }
-  out << "]}";
+  std::vector<CRI::Judged_pose> poses = judge.distinct_poses();
+  if (poses.empty()) throw std::runtime_error("nothing is proposed");
+  const CRI::Judged_pose best = poses.front();
+  std::vector<CRI::Judged_pose> both = {best};
+  for (const CRI::Pose& pose : judge.candidates()) {
+    if (judge.are_same(pose, best.pose)) continue;
+    const CRI::Judged_pose rival = judge.weighed(pose);
+    if (both.size() == 1) both.push_back(rival);
+    else if (rival.log_odds > both[1].log_odds) both[1] = rival;
+  }
+  if (both.size() == 1) throw std::runtime_error("there is no rival");
+  CRI::share_probability(both);
+  out << "{\"tried\":" << tried << ",\"distinct\":" << judge.candidates().size() << ",\"rival\":";
+  write_judged(out, source, target, both[1], both[1].pose);
+  out << ",\"proposed\":";
+  write_judged(out, source, target, best, best.proposed);
+  out << ",\"refined\":";
+  write_judged(out, source, target, best, best.pose);
+  out << '}';
 }
 
 int run(const Options& options)

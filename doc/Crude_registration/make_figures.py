@@ -97,7 +97,7 @@ def stages(programs, folder, work):
     with open(file, encoding="utf-8") as stream:
         data = json.load(stream)
     source, target, match = data["source"], data["target"], data["match"]
-    judged = data["candidates"]["judged"]
+    candidates = data["candidates"]
     figure, grid = plt.subplots(2, 4, figsize=(10.4, 5.9))
     axes = grid.ravel()
 
@@ -115,10 +115,9 @@ def stages(programs, folder, work):
               f"{4 + k} {name}-mesh: {len(scan['simple']['points'])} vertices; " +
               ("a trihedron" if k == 0 else "its match"))
         draw_trihedron(axes[3 + k], match[side])
-    wrong = judged[2:][0] if len(judged) > 2 else judged[0]
-    draw_judged(axes[5], target, wrong, f"6 a rival of {data['candidates']['distinct']}: P = {wrong['probability']:.3f}")
-    draw_judged(axes[6], target, judged[0], "7 the best, as proposed")
-    draw_judged(axes[7], target, judged[1], f"8 refined and judged: P = {judged[1]['probability']:.3f}")
+    draw_judged(axes[5], target, candidates["rival"], f"6 the best rival: P = {candidates['rival']['probability']:.3f}")
+    draw_judged(axes[6], target, candidates["proposed"], f"7 the best of {candidates['distinct']} candidates, as proposed")
+    draw_judged(axes[7], target, candidates["refined"], f"8 refined and judged: P = {candidates['refined']['probability']:.3f}")
     legend(axes[6], OUTCOMES)
     figure.tight_layout()
     figure.savefig(os.path.join(folder, "stages.png"), dpi=100, pil_kwargs={"optimize": True})
@@ -126,7 +125,7 @@ def stages(programs, folder, work):
 
 
 def status_of(output):
-    return re.search(r"not registered|ambiguous|registered", output).group(0)
+    return re.search(r"^status: *(\w+)", output, re.M).group(1).replace("_", " ")
 
 
 def outcomes(programs, folder, work):
