@@ -56,9 +56,9 @@ namespace {
 struct Options
 {
   std::string output;
-  unsigned seed = 5;
+  unsigned seed = 9;
   std::size_t samples = 200; // columns, and rows
-  double degrees = 45;
+  double degrees = 90;
 };
 
 template <class Range, class Function>
@@ -202,7 +202,16 @@ void write_judged(std::ostream& out, const CR::Scan<Kernel>& source, const CR::S
   out << '}';
 }
 
-// All rounds are made, though the first one may be enough: the best of what they have tried elsewhere is the rival.
+// The probes that agree under a pose.
+std::ptrdiff_t number_that_agree(const CRI::Pose_judge& judge, const CRI::Pose& pose)
+{
+  const std::vector<std::uint8_t> outcomes = judge.outcomes(pose);
+  return std::count_if(outcomes.begin(), outcomes.end(),
+                       [](std::uint8_t o) { return o != CRI::Outcome::UNKNOWN && CRI::Outcome::kind(o) == 0; });
+}
+
+// All rounds are made, though the first one may be enough: what agrees most of all that they have tried elsewhere is
+// the rival.
 void write_candidates(std::ostream& out, const CR::Scan<Kernel>& source, const CR::Scan<Kernel>& target)
 {
   const CRI::Reduced_scan &s = source.reduced(), &t = target.reduced();
@@ -217,11 +226,13 @@ void write_candidates(std::ostream& out, const CR::Scan<Kernel>& source, const C
   if (poses.empty()) throw std::runtime_error("nothing is proposed");
   const CRI::Judged_pose best = poses.front();
   std::vector<CRI::Judged_pose> both = {best};
+  std::ptrdiff_t most = -1;
   for (const CRI::Pose& pose : judge.candidates()) {
-    if (judge.are_same(pose, best.pose)) continue;
-    const CRI::Judged_pose rival = judge.weighed(pose);
-    if (both.size() == 1) both.push_back(rival);
-    else if (rival.log_odds > both[1].log_odds) both[1] = rival;
+    const std::ptrdiff_t number = judge.are_same(pose, best.pose) ? -1 : number_that_agree(judge, pose);
+    if (number <= most) continue;
+    most = number;
+    both.resize(1);
+    both.push_back(judge.weighed(pose));
   }
   if (both.size() == 1) throw std::runtime_error("there is no rival");
   CRI::share_probability(both);

@@ -34,9 +34,10 @@ OUTCOMES = [("agrees", "#2b9348"), ("disagrees", "#e08b3e"), ("in free space", "
 SOURCE, TARGET = "#e08b3e", "#3e7fc1"
 
 
-def run(program, *arguments, may_fail=False):
+def run(program, *arguments, may_fail=False, is_quiet=False):
     """Runs a program. Where it may say that scans are not registered, its exit code is no error."""
-    result = subprocess.run([program, *map(str, arguments)], stdout=subprocess.PIPE, text=True, check=False)
+    result = subprocess.run([program, *map(str, arguments)], stdout=subprocess.PIPE, text=True, check=False,
+                            stderr=subprocess.DEVNULL if is_quiet else None)
     if result.returncode != 0 and not (may_fail and result.returncode in (2, 3)):
         sys.exit(f"{program} {' '.join(map(str, arguments))}: exit code {result.returncode}")
     return result.stdout
@@ -88,7 +89,7 @@ def draw_judged(axes, target, judged, title):
 def legend(axes, entries):
     handles = [plt.Line2D([], [], marker="o", linestyle="none", color=colour, markersize=5) for _, colour in entries]
     axes.legend(handles, [name for name, _ in entries], fontsize=6.5, loc="lower center", ncol=2, frameon=False,
-                bbox_to_anchor=(0.5, -0.13), handletextpad=0.1, columnspacing=0.8)
+                bbox_to_anchor=(0.5, -0.17), handletextpad=0.1, columnspacing=0.8)
 
 
 def stages(programs, folder, work):
@@ -115,8 +116,8 @@ def stages(programs, folder, work):
               f"{4 + k} {name}-mesh: {len(scan['simple']['points'])} vertices; " +
               ("a trihedron" if k == 0 else "its match"))
         draw_trihedron(axes[3 + k], match[side])
-    draw_judged(axes[5], target, candidates["rival"], f"6 the best rival: P = {candidates['rival']['probability']:.3f}")
-    draw_judged(axes[6], target, candidates["proposed"], f"7 the best of {candidates['distinct']} candidates, as proposed")
+    draw_judged(axes[5], target, candidates["rival"], f"6 a rival: P = {candidates['rival']['probability']:.3f}")
+    draw_judged(axes[6], target, candidates["proposed"], f"7 the best of {candidates['distinct']}, as proposed")
     draw_judged(axes[7], target, candidates["refined"], f"8 refined and judged: P = {candidates['refined']['probability']:.3f}")
     legend(axes[6], OUTCOMES)
     figure.tight_layout()
@@ -221,7 +222,7 @@ def report(programs, folder, work):
         os.path.join(work, "a", "scan_1.ply"), "--report", page)
     run(chromium, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--hide-scrollbars",
         "--enable-unsafe-swiftshader", "--virtual-time-budget=8000", "--window-size=1280,1000",
-        f"--user-data-dir={work}/chromium", f"--screenshot={picture}", "file://" + page)
+        f"--user-data-dir={work}/chromium", f"--screenshot={picture}", "file://" + page, is_quiet=True)
     shrink(picture, os.path.join(folder, "report.png"), 1000)
 
 
