@@ -59,6 +59,7 @@ struct Options
   unsigned seed = 9;
   std::size_t samples = 200; // columns, and rows
   double degrees = 90;
+  bool are_scans_only = false;
 };
 
 template <class Range, class Function>
@@ -263,19 +264,21 @@ int run(const Options& options)
   }
   const Transformation truth = views[1].scene_from_scan.inverse() * views[0].scene_from_scan;
   const Stages source(views[0].image), target(views[1].image);
-  const CR::Scan<Kernel> s(source.image), t(target.image);
-  const auto result = CR::register_scans(s, t);
   CR::write_file(options.output, [&](std::ostream& out) {
     out << std::setprecision(5) << "{\"source\":";
     source.write(out);
     out << ",\"target\":";
     target.write(out);
-    out << ",\"match\":";
-    write_match(out, source, target, truth);
-    out << ",\"candidates\":";
-    write_candidates(out, s, t);
-    out << ",\"confidence\":" << result.confidence() << ",\"motion\":";
-    write_motion(out, result.transformation());
+    if (!options.are_scans_only) {
+      const CR::Scan<Kernel> s(source.image), t(target.image);
+      const auto result = CR::register_scans(s, t);
+      out << ",\"match\":";
+      write_match(out, source, target, truth);
+      out << ",\"candidates\":";
+      write_candidates(out, s, t);
+      out << ",\"confidence\":" << result.confidence() << ",\"motion\":";
+      write_motion(out, result.transformation());
+    }
     out << "}\n";
   });
   return EXIT_SUCCESS;
@@ -296,6 +299,7 @@ int main(int argc, char* argv[])
                               "columns, and rows, of the grid");
     description.add_options()("degrees", po::value(&options.degrees)->default_value(options.degrees),
                               "from the one viewpoint to the other");
+    description.add_options()("scans-only", po::bool_switch(&options.are_scans_only), "write the scans, and no match");
     po::variables_map values;
     if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
     return run(options);

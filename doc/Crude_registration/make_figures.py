@@ -23,6 +23,7 @@ import tempfile
 
 import matplotlib
 matplotlib.use("Agg")
+matplotlib.rcParams["svg.hashsalt"] = "table 3"  # the same file every time
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -53,7 +54,7 @@ def frame(axes, points, title):
     axes.set_title(title, fontsize=9)
 
 
-def draw_faces(axes, mesh, colours, edges="none", width=0.0):
+def draw_faces(axes, mesh, colours, edges="none", width=0.1):
     """The faces as the sensor sees them, the far ones first; it looks along -z."""
     points, faces = np.array(mesh["points"]), np.array(mesh["faces"])
     corners = points[faces]
@@ -86,10 +87,31 @@ def draw_judged(axes, target, judged, title):
     frame(axes, np.concatenate([points, moved]), title)
 
 
-def legend(axes, entries):
+def legend(axes, entries, below):
     handles = [plt.Line2D([], [], marker="o", linestyle="none", color=colour, markersize=5) for _, colour in entries]
     axes.legend(handles, [name for name, _ in entries], fontsize=6.5, loc="lower center", ncol=2, frameon=False,
-                bbox_to_anchor=(0.5, -0.17), handletextpad=0.1, columnspacing=0.8)
+                bbox_to_anchor=(0.5, -below), handletextpad=0.1, columnspacing=0.8)
+
+
+def statue(programs, folder, work):
+    """A body from three sides, by finer scans."""
+    meshes = []
+    for degrees in (45, 90):
+        file = os.path.join(work, f"statue_{degrees}.json")
+        run(os.path.join(programs, "method_stages"), "--output", file, "--degrees", degrees, "--samples", 400,
+            "--scans-only")
+        with open(file, encoding="utf-8") as stream:
+            data = json.load(stream)
+        meshes += [data["source"]["dense"]] if not meshes else []
+        meshes.append(data["target"]["dense"])
+    figure, axes = plt.subplots(1, 3, figsize=(9, 3.2))
+    for k, mesh in enumerate(meshes):
+        frame(axes[k], draw_faces(axes[k], mesh, "#e3e6ea", "face"), "")
+    figure.tight_layout()
+    picture = os.path.join(work, "statue.png")
+    figure.savefig(picture, dpi=100)
+    shrink(picture, os.path.join(folder, "statue.png"), 900)
+    plt.close(figure)
 
 
 def stages(programs, folder, work):
@@ -110,7 +132,7 @@ def stages(programs, folder, work):
     types, faces = np.array(source["types"]), np.array(source["dense"]["faces"])
     of_faces = [SURFACE_TYPES[types[f[0]]][1] for f in faces]
     frame(axes[2], draw_faces(axes[2], source["dense"], of_faces), "3 surface types")
-    legend(axes[2], [entry for k, entry in enumerate(SURFACE_TYPES) if k in types])
+    legend(axes[2], [entry for k, entry in enumerate(SURFACE_TYPES) if k in types], 0.09)
     for k, (scan, name, side) in enumerate(((source, "S", "source"), (target, "D", "target"))):
         frame(axes[3 + k], draw_faces(axes[3 + k], scan["simple"], "#e3e8ee", "#5c6773", 0.4),
               f"{4 + k} {name}-mesh: {len(scan['simple']['points'])} vertices; " +
@@ -119,9 +141,11 @@ def stages(programs, folder, work):
     draw_judged(axes[5], target, candidates["rival"], f"6 a rival: P = {candidates['rival']['probability']:.3f}")
     draw_judged(axes[6], target, candidates["proposed"], f"7 the best of {candidates['distinct']}, as proposed")
     draw_judged(axes[7], target, candidates["refined"], f"8 refined and judged: P = {candidates['refined']['probability']:.3f}")
-    legend(axes[6], OUTCOMES)
+    legend(axes[6], OUTCOMES, 0.17)
     figure.tight_layout()
-    figure.savefig(os.path.join(folder, "stages.png"), dpi=100, pil_kwargs={"optimize": True})
+    picture = os.path.join(work, "stages.png")
+    figure.savefig(picture, dpi=100)
+    shrink(picture, os.path.join(folder, "stages.png"), 1040)
     plt.close(figure)
 
 
@@ -152,7 +176,9 @@ def outcomes(programs, folder, work):
         axes[k].axis("off")
         axes[k].set_title(expected, fontsize=10)
     figure.tight_layout()
-    figure.savefig(os.path.join(folder, "outcomes.png"), dpi=85, pil_kwargs={"optimize": True})
+    picture = os.path.join(work, "outcomes.png")
+    figure.savefig(picture, dpi=85)
+    shrink(picture, os.path.join(folder, "outcomes.png"), 820)
     plt.close(figure)
 
 
@@ -231,6 +257,7 @@ def main():
         sys.exit(__doc__)
     programs, folder = sys.argv[1:]
     with tempfile.TemporaryDirectory() as work:
+        statue(programs, folder, work)
         stages(programs, folder, work)
         outcomes(programs, folder, work)
         table_3(folder)
