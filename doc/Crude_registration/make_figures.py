@@ -110,7 +110,7 @@ def statue(programs, folder, work):
     figure.tight_layout()
     picture = os.path.join(work, "statue.png")
     figure.savefig(picture, dpi=100)
-    shrink(picture, os.path.join(folder, "statue.png"), 900)
+    shrink(picture, os.path.join(folder, "statue.png"), 900, 64)
     plt.close(figure)
 
 
@@ -145,7 +145,7 @@ def stages(programs, folder, work):
     figure.tight_layout()
     picture = os.path.join(work, "stages.png")
     figure.savefig(picture, dpi=100)
-    shrink(picture, os.path.join(folder, "stages.png"), 1040)
+    shrink(picture, os.path.join(folder, "stages.png"), 1040)  # with its few violet points, which a palette leaves out
     plt.close(figure)
 
 
@@ -227,15 +227,18 @@ def model(programs, folder, work):
     run(crude_register, "simulate", "--output", scans, "--scans", 8, "--seed", 5, "--samples", 200, "--pedestal", 1.3)
     os.remove(os.path.join(scans, "poses.txt"))
     run(crude_register, "assemble", scans, "--poses", os.path.join(work, "poses.txt"), "--picture", picture)
-    shrink(picture, os.path.join(folder, "model.png"), 700)
+    shrink(picture, os.path.join(folder, "model.png"), 700, 128)
 
 
-def shrink(source, target, width):
+def shrink(source, target, width, colours=None):
+    """`colours`: so many are enough, where they are given."""
     from PIL import Image  # matplotlib needs it, too
     image = Image.open(source).convert("RGB")
     if image.width > width:
         image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
-    image.quantize(256, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(target, optimize=True)
+    if colours is not None:
+        image = image.quantize(colours)
+    image.save(target, optimize=True)
 
 
 def report(programs, folder, work):
@@ -247,7 +250,7 @@ def report(programs, folder, work):
     run(os.path.join(programs, "crude_register"), "register", os.path.join(work, "a", "scan_0.ply"),
         os.path.join(work, "a", "scan_1.ply"), "--report", page)
     run(chromium, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--hide-scrollbars",
-        "--enable-unsafe-swiftshader", "--virtual-time-budget=8000", "--window-size=1280,1000",
+        "--enable-unsafe-swiftshader", "--virtual-time-budget=60000", "--window-size=1280,1000",
         f"--user-data-dir={work}/chromium", f"--screenshot={picture}", "file://" + page, is_quiet=True)
     shrink(picture, os.path.join(folder, "report.png"), 1000)
 
