@@ -250,7 +250,7 @@ def report(programs, folder, work):
     run(os.path.join(programs, "crude_register"), "register", os.path.join(work, "a", "scan_0.ply"),
         os.path.join(work, "a", "scan_1.ply"), "--report", page)
     run(chromium, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--hide-scrollbars",
-        "--enable-unsafe-swiftshader", "--virtual-time-budget=60000", "--window-size=1280,1000",
+        "--enable-unsafe-swiftshader", "--timeout=12000", "--window-size=1280,1000",
         f"--user-data-dir={work}/chromium", f"--screenshot={picture}", "file://" + page, is_quiet=True)
     shrink(picture, os.path.join(folder, "report.png"), 1000)
 
