@@ -305,6 +305,8 @@ int main(int argc, char* argv[])
     return run(options);
   } catch (const std::exception& e) {
     std::cerr << "method_stages: " << e.what() << '\n';
-    return EXIT_FAILURE;
+  } catch (const CRI::Run_control::Stopped&) { // nothing here stops a run
+    std::cerr << "method_stages: stopped\n";
   }
+  return EXIT_FAILURE;
 }
