@@ -117,6 +117,11 @@ if(TARGET benchmarks)
     endif()
     check_source(peer_stamps peer_${peer} ${PROJECT_SOURCE_DIR}/benchmark/Crude_registration/peers/${peer}.cpp
       "peer ${peer}" -DCGAL_CRUDE_REGISTRATION_COMPILED ${system})
+    if(peer STREQUAL "pcl")
+      check_source(peer_stamps peer_spin_images
+        ${PROJECT_SOURCE_DIR}/benchmark/Crude_registration/peers/spin_images.cpp "spin images of pcl"
+        -DCGAL_CRUDE_REGISTRATION_COMPILED ${system})
+    endif()
     list(APPEND peer_definitions -DCRUDE_REGISTRATION_HAS_${upper_peer})
   endforeach()
   if(peer_definitions)

@@ -13,6 +13,7 @@
 //
 // Where the file of the pairs has their overlaps and true motions, the answers are counted by overlap.
 
+#include "command_line.h"
 #include "csv_table.h"
 #include "moved_scan.h"
 #include "registration_trials.h"
@@ -217,12 +218,7 @@ int main(int argc, char** argv)
         "viewpoint", po::value(&viewpoint_text),
         "x,y,z: where scans without a grid were seen from, in their own frame");
     po::variables_map values;
-    po::store(po::parse_command_line(argc, argv, options), values);
-    if (values.count("help")) {
-      std::cout << options;
-      return EXIT_SUCCESS;
-    }
-    po::notify(values);
+    if (!benchmark_tools::read_options(argc, argv, options, values)) return EXIT_SUCCESS;
     threads = (std::max)(threads, 1u);
     method.viewpoint = benchmark_tools::read_point(viewpoint_text);
     if (method_name != "pairs" && method_name != "trihedra")

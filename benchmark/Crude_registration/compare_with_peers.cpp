@@ -13,6 +13,7 @@
 // diagonal of where it should be.
 
 #include "child_process.h"
+#include "command_line.h"
 #include "reference_time.h"
 #include "registration_trials.h"
 #include "peers/Peer.h"
@@ -340,12 +341,7 @@ int main(int argc, char* argv[])
     description.add_options()("tune", po::bool_switch(&options.tune),
                               "compare the peers' settings that the tuned ones were chosen from");
     po::variables_map values;
-    po::store(po::parse_command_line(argc, argv, description), values);
-    if (values.count("help") != 0) {
-      std::cout << description;
-      return EXIT_SUCCESS;
-    }
-    po::notify(values);
+    if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
     if (options.runs == 0) throw std::invalid_argument("--runs has to be at least 1");
     return run(options);
   } catch (const std::exception& e) {

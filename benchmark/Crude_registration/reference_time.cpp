@@ -7,6 +7,7 @@
 
 // Prints the unit of times, R: see reference_time.h.
 
+#include "command_line.h"
 #include "reference_time.h"
 
 #include <boost/program_options.hpp>
@@ -55,23 +56,15 @@ int main(int argc, char* argv[])
                                         "Prints R, the seconds of CPU time (median of some runs, one thread) that\n"
                                         "CGAL's edge collapse takes from the scan's dense mesh to a few hundred\n"
                                         "vertices.\n\nOptions");
-    po::options_description hidden, all;
+    po::options_description hidden;
     description.add_options()("help,h", "print this");
     description.add_options()("vertices", po::value(&options.vertices)->default_value(options.vertices),
                               "number of vertices to stop at");
     description.add_options()("runs", po::value(&options.runs)->default_value(options.runs), "number of runs");
     description.add_options()("verbose,v", po::bool_switch(&options.verbose), "print each run to standard error");
     hidden.add_options()("scan", po::value(&options.scan));
-    all.add(description).add(hidden);
-    po::positional_options_description positional;
-    positional.add("scan", 1);
     po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-    if (values.count("help") != 0) {
-      std::cout << description;
-      return EXIT_SUCCESS;
-    }
-    po::notify(values);
+    if (!benchmark_tools::read_options(argc, argv, description, values, hidden, "scan", 1)) return EXIT_SUCCESS;
     if (options.scan.empty()) throw po::error("no scan is given");
     if (options.runs == 0) throw po::error("runs has to be at least 1");
     return run(options);

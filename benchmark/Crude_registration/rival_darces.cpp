@@ -19,13 +19,9 @@
 #include "bunny_pairs.h"
 #include "command_line.h"
 #include "cpu_time.h"
-#include "reference_time.h"
+#include "rival_trials.h"
 
-#include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
 #include <CGAL/Crude_registration/reduction/scan_extent.h>
-
-#include <CGAL/bounding_box.h>
-#include <CGAL/centroid.h>
 
 #include <boost/program_options.hpp>
 
@@ -39,11 +35,9 @@
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
-#include <iomanip>
 #include <iostream>
 #include <map>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -51,6 +45,7 @@
 
 namespace CR = CGAL::Crude_registration;
 namespace po = boost::program_options;
+using benchmark_tools::Rival_answer;
 using Eigen::Vector3d;
 
 namespace {
@@ -247,102 +242,40 @@ double cell_size(const bunny::Dense_scan& scan, double points)
   return cell;
 }
 
-struct Answer
+Rival_answer register_by_darces(const bunny::Dense_scan& source, const bunny::Dense_scan& target,
+                                const bunny::Transformation& truth, const Options& options, std::mt19937_64& random)
 {
-  Found found;
-  std::size_t points; // of the source
-  double seconds;
-  bunny::Error crude, refined;
-  bool is_right;
-};
-
-bool is_right(const bunny::Transformation& found, const bunny::Transformation& truth, const bunny::Mesh& source)
-{
-  const CGAL::Bbox_3 box = CGAL::bbox_3(source.points().begin(), source.points().end());
-  const Vector3d diagonal(box.x_span(), box.y_span(), box.z_span());
-  const auto middle = CGAL::centroid(source.points().begin(), source.points().end(), CGAL::Dimension_tag<0>());
-  const double shift = std::sqrt(CGAL::squared_distance(middle.transform(found), middle.transform(truth)));
-  return benchmark_tools::degrees_between(found, truth) < 5 && shift < 0.05 * diagonal.norm();
-}
-
-Answer register_by_darces(const bunny::Dense_scan& source, const bunny::Dense_scan& target,
-                          const bunny::Transformation& truth, const Options& options, std::mt19937_64& random)
-{
-  Answer answer;
+  Rival_answer answer;
   const double start = benchmark_tools::cpu_seconds();
   const double cell = cell_size(source, options.points), m = CR::scan_extent(source.image).mean();
   Points points = thinned(source.mesh, cell);
-  answer.points = points.size();
+  const auto number = double(points.size());
   Darces darces(std::move(points), thinned(target.mesh, cell), cell, options.shortest * m, options.longest * m,
                 options.tolerance, random);
-  answer.found = darces.run(options.triangles);
+  const Found found = darces.run(options.triangles);
   answer.seconds = benchmark_tools::cpu_seconds() - start;
-  const Motion& motion = answer.found.motion;
+  answer.motions = found.motions;
+  answer.overlap = double(found.overlap) / number;
+  const Motion& motion = found.motion;
   const auto crude = benchmark_tools::to_motion<bunny::Kernel>(motion.linear(), Vector3d(motion.translation()));
-  const auto refined = CR::refine_motion<CGAL::Sequential_tag>(source.mesh, target.mesh, crude).motion;
-  answer.crude = bunny::Error(crude, truth);
-  answer.refined = bunny::Error(refined, truth);
-  answer.is_right = is_right(refined, truth, source.mesh);
+  answer.judge(source, target, crude, truth);
   return answer;
-}
-
-// The paper's method by this package, from the same samples.
-template <class Generator>
-Answer register_by_package(const bunny::Dense_scan& source, const bunny::Dense_scan& target,
-                           const bunny::Transformation& truth, const Generator& generator)
-{
-  Answer answer{};
-  const auto np = CR::parameters::candidates(generator);
-  const double start = benchmark_tools::cpu_seconds();
-  const auto result =
-      CR::register_scans(CR::Scan<bunny::Kernel>(source.image, np), CR::Scan<bunny::Kernel>(target.image, np), np);
-  answer.seconds = benchmark_tools::cpu_seconds() - start;
-  answer.crude = bunny::Error(result.crude_transformation(), truth);
-  answer.refined = bunny::Error(result.transformation(), truth);
-  answer.is_right = result.status() == CR::REGISTERED && is_right(result.transformation(), truth, source.mesh);
-  return answer;
-}
-
-void print(const std::string& pair, const std::string& method, const Answer& a, double reference)
-{
-  std::ostringstream out;
-  out << std::left << std::setw(9) << pair << std::setw(26) << method << std::right << std::fixed;
-  if (a.points > 0)
-    out << std::setw(9) << a.found.motions << std::setprecision(3) << std::setw(9)
-        << double(a.found.overlap) / double(a.points);
-  else out << std::setw(9) << '-' << std::setw(9) << '-';
-  out << std::setprecision(3) << std::setw(9) << a.crude.rotation << std::setw(9) << a.refined.rotation << std::setw(7)
-      << (a.is_right ? "yes" : "no") << std::setw(10) << a.seconds << std::setprecision(2) << std::setw(9)
-      << a.seconds / reference << '\n';
-  std::cout << out.str() << std::flush;
 }
 
 int run(const Options& options)
 {
-  const std::array<const char*, 4> names = {"000", "090", "180", "270"};
-  std::vector<bunny::Dense_scan> scans;
-  for (const char* name : names) scans.push_back(bunny::read_scan(options.folder, "bun" + std::string(name) + ".ply"));
-  const double reference = benchmark_tools::reference_seconds(options.folder + "/bun000.ply");
-  std::cout << "                                             of points   degrees    after                  \n"
-            << "pair     method                      motions  overlap    crude      ICP  right   CPU s        R\n";
   std::size_t right = 0;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    const bunny::Dense_scan &source = scans[i], &target = scans[(i + 1) % scans.size()];
-    const std::string pair = std::string(names[i]) + '-' + names[(i + 1) % scans.size()];
-    const auto truth = bunny::published_pose(options.folder, target.name).inverse() *
-                       bunny::published_pose(options.folder, source.name);
-    for (std::size_t k = 0; k < options.runs; ++k) {
-      std::mt19937_64 random(k + 1);
-      const Answer answer = register_by_darces(source, target, truth, options, random);
-      right += answer.is_right;
-      print(pair, "DARCES, seed " + std::to_string(k + 1), answer, reference);
-    }
-    print(pair, "trihedra (the paper)", register_by_package(source, target, truth, CR::Trihedron_candidates()),
-          reference);
-    print(pair, "oriented pairs", register_by_package(source, target, truth, CR::Oriented_pair_candidates()),
-          reference);
-  }
-  std::cout << "\nDARCES is right in " << right << " of " << scans.size() * options.runs
+  const double reference = benchmark_tools::for_each_of_the_papers_pairs(
+      options.folder,
+      [&](const bunny::Dense_scan& source, const bunny::Dense_scan& target, const auto& truth, const auto& print) {
+        for (std::size_t k = 0; k < options.runs; ++k) {
+          std::mt19937_64 random(k + 1);
+          const Rival_answer answer = register_by_darces(source, target, truth, options, random);
+          right += answer.is_right;
+          print("DARCES, seed " + std::to_string(k + 1), answer);
+        }
+      });
+  std::cout << "\nDARCES is right in " << right << " of " << 4 * options.runs
             << " runs; right: after ICP within 5 degrees, and the centroid within 5 % of\nthe diagonal; R = "
             << reference << " s\n";
   return EXIT_SUCCESS;

@@ -7,6 +7,8 @@
 
 // Table 1 of the paper: what simplification to the approximation error leaves of the scans.
 
+#include "command_line.h"
+
 #include <CGAL/Crude_registration/IO/read_scan.h>
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/reduction/approximation_error.h>
@@ -174,21 +176,13 @@ int main(int argc, char* argv[])
                                         "Prints how many vertices the paper's approximation error leaves of each\n"
                                         "scan: of the four bunny scans of the paper's Table 1 if no scan is named.\n\n"
                                         "Options");
-    po::options_description hidden, all;
+    po::options_description hidden;
     description.add_options()("help,h", "print this");
     description.add_options()("scans", po::value(&options.folder), "folder of the scans; default: this one");
     description.add_options()("csv", po::value(&options.csv), "file to write the table to, as CSV");
     hidden.add_options()("files", po::value(&options.files));
-    all.add(description).add(hidden);
-    po::positional_options_description positional;
-    positional.add("files", -1);
     po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-    if (values.count("help") != 0) {
-      std::cout << description;
-      return EXIT_SUCCESS;
-    }
-    po::notify(values);
+    if (!benchmark_tools::read_options(argc, argv, description, values, hidden, "files")) return EXIT_SUCCESS;
     return run(options);
   } catch (const std::exception& e) {
     std::cerr << "table_1_reduction: " << e.what() << '\n';

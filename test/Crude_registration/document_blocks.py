@@ -71,7 +71,8 @@ CALLS}
 
 
 def documents(root):
-    yield from (root / name for name in ("README.md", "CONTRIBUTING.md", "doc/design.md", "benchmark/README.md"))
+    yield from (root / name for name in ("README.md", "CONTRIBUTING.md", "doc/design.md", "doc/cgal_reviewers.md",
+                                          "benchmark/README.md"))
     yield from sorted((root / "doc/Crude_registration").glob("*.txt"))
 
 

@@ -8,10 +8,9 @@
 #include "pcl.h"
 
 #include "../cpu_time.h"
+#include "pcl_points.h"
 
 #include <pcl/features/fpfh.h>
-#include <pcl/features/normal_3d.h>
-#include <pcl/filters/voxel_grid.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/sample_consensus_prerejective.h>
@@ -23,42 +22,14 @@ namespace benchmark_tools {
 
 namespace {
 
-using Points = pcl::PointCloud<pcl::PointNormal>;
-
-Points::Ptr to_points(const Peer_scan& scan)
-{
-  Points::Ptr points(new Points);
-  points->reserve(scan.points.size());
-  for (const Eigen::Vector3d& p : scan.points) {
-    pcl::PointNormal q;
-    q.x = float(p.x());
-    q.y = float(p.y());
-    q.z = float(p.z());
-    points->push_back(q);
-  }
-  return points;
-}
-
 struct Described
 {
-  Points::Ptr points{new Points};
+  Pcl_points::Ptr points{new Pcl_points};
   pcl::PointCloud<pcl::FPFHSignature33>::Ptr features{new pcl::PointCloud<pcl::FPFHSignature33>};
 
-  Described(const Points::ConstPtr& all, const Peer_scan& scan, double voxel, const Peer_setting& setting)
+  Described(const Pcl_points::ConstPtr& all, const Peer_scan& scan, double voxel, const Peer_setting& setting)
   {
-    pcl::VoxelGrid<pcl::PointNormal> grid;
-    const auto leaf = float(voxel);
-    grid.setLeafSize(leaf, leaf, leaf);
-    grid.setInputCloud(all);
-    grid.filter(*points);
-    pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> normals;
-    normals.setRadiusSearch(setting.normal_radius * voxel);
-    normals.setInputCloud(points);
-    normals.compute(*points);
-    if (setting.orients_normals)
-      for (auto& p : *points)
-        if (scan.faces_away(p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()))
-          p.getNormalVector3fMap() *= -1;
+    *points = *thinned_with_normals(all, scan, voxel, setting);
     pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> estimation;
     estimation.setRadiusSearch(setting.feature_radius * voxel);
     estimation.setInputCloud(points);
@@ -72,7 +43,7 @@ struct Described
 Peer_answer register_by_pcl(const Peer_scan& source, const Peer_scan& target, const Peer_setting& setting)
 {
   std::srand(1);
-  const Points::Ptr source_points = to_points(source), target_points = to_points(target);
+  const Pcl_points::Ptr source_points = to_pcl_points(source), target_points = to_pcl_points(target);
 
   Peer_answer answer;
   const double start = cpu_seconds();
