@@ -416,7 +416,8 @@ BOOST_AUTO_TEST_CASE(real_points_with_and_without_their_sensor,
 // memory before does not matter.
 BOOST_AUTO_TEST_CASE(joined_points_depend_on_the_points_alone)
 {
-  std::vector<Point> points; // of a sphere, in a grid that has many equal edges
+  // Of a sphere, in a grid that has many equal edges.
+  std::vector<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3> points;
   constexpr int rows = 24, columns = 48;
   for (int i = 1; i < rows; ++i)
     for (int j = 0; j < columns; ++j) {
