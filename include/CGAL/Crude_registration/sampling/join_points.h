@@ -47,8 +47,7 @@ triangles for the same points every time.
 
 Where two edges of the front are equally good, CGAL takes the one that lies lower in memory, so that two runs of one
 program may differ; here it is the one whose points come first. Faces are triples of indices of `points`; no side of the
-surface is the outer one. Complexity: that of
-a Delaunay triangulation in space.
+surface is the outer one. Complexity: that of a Delaunay triangulation in space.
 
 \param points finite; of equal points one is joined
 
