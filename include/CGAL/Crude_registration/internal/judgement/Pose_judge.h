@@ -49,9 +49,8 @@ public:
         m_fine_source_probes(neighbouring_probes(source.fine, 2500)),
         m_fine_target_probes(neighbouring_probes(target.fine, 2500)),
         m_source_probes(neighbouring_probes(source.fine, evidence_probes)),
-        m_target_probes(neighbouring_probes(target.fine, evidence_probes)),
-        m_usual(usual_log_ratios(coefficients)), m_extent(float((std::min)(source.extent, target.extent))),
-        m_fine_look(fine_look(source, target)),
+        m_target_probes(neighbouring_probes(target.fine, evidence_probes)), m_usual(usual_log_ratios(coefficients)),
+        m_extent(float((std::min)(source.extent, target.extent))), m_fine_look(fine_look(source, target)),
         m_tolerance(probe_tolerance(source.fine, target.fine, m_fine_look.free_depth))
   {}
 
@@ -253,7 +252,7 @@ private:
   const Probe_tolerance m_tolerance;
   std::vector<Pose> m_candidates; // distinct; with what the probes of the source and of the target meet under them
   Outcome_table m_source_outcomes, m_target_outcomes;
-  std::vector<double> m_usual_evidence; // of the candidates, a probe
+  std::vector<double> m_usual_evidence;                   // of the candidates, a probe
   std::optional<Chance> m_source_chance, m_target_chance; // by the candidates so far
   std::vector<Judged_pose> m_judged;
   Outcome_table m_judged_source_outcomes, m_judged_target_outcomes;

@@ -99,7 +99,8 @@ void probe_outcomes(const Probe_range& probes, const Reduced_scan& other, const 
       const int agrees = is_there & int(u < 1) & int(c > cosines[2]);
       const int residual = int(u >= 0.125f) + int(u >= 0.25f) + int(u >= 0.5f);
       const int angle = int(c <= cosines[0]) + int(c <= cosines[1]);
-      outcome[i] = std::uint8_t(agrees != 0 ? 1 + Outcome::angle_bins * residual + angle : is_there * Outcome::DISAGREES);
+      outcome[i] =
+          std::uint8_t(agrees != 0 ? 1 + Outcome::angle_bins * residual + angle : is_there * Outcome::DISAGREES);
       open[opens] = std::uint8_t(i);
       opens += std::size_t(1 - agrees);
     }

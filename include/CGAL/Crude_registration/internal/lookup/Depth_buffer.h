@@ -114,10 +114,7 @@ public:
 
   // Whether `p` would have been seen at a place of the image where nothing was: no sample in its cell nor in those
   // around it.
-  bool is_empty(const Vector_f& p) const
-  {
-    return m_is_empty[cell(project(p))] != 0;
-  }
+  bool is_empty(const Vector_f& p) const { return m_is_empty[cell(project(p))] != 0; }
 
   // The direction of the line of sight through p, of any length.
   Vector_f sight(const Vector_f& p) const
@@ -144,10 +141,10 @@ public:
   // Whether it can be looked into.
   bool is_consistent() const
   {
-    const bool is_kind = m_kind == Flat_sensor::ORTHOGRAPHIC || m_kind == Flat_sensor::PERSPECTIVE ||
-                         m_kind == Flat_sensor::UNKNOWN;
-    return is_kind && m_columns > 0 && m_rows > 0 &&
-           std::size_t(m_columns) * std::size_t(m_rows) == m_depths.size() && m_is_empty.size() == m_depths.size();
+    const bool is_kind =
+        m_kind == Flat_sensor::ORTHOGRAPHIC || m_kind == Flat_sensor::PERSPECTIVE || m_kind == Flat_sensor::UNKNOWN;
+    return is_kind && m_columns > 0 && m_rows > 0 && std::size_t(m_columns) * std::size_t(m_rows) == m_depths.size() &&
+           m_is_empty.size() == m_depths.size();
   }
 
 private:

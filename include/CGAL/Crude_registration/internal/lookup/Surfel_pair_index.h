@@ -122,9 +122,9 @@ private:
 // look-up finds the pairs (C, c1) that may correspond to a pair (V, v1), the sphere of the paper's section 6 with the
 // signed angles of the spatial descriptor.
 //
-// A Vertex_pair_index does the same for all lengths of a range, with tolerances of its own for each question. To build it
-// for the pairs of one length takes 1.36 times as long (5.42 ms against 3.99 ms for 110,000 pairs, kernels.cpp), and each
-// of its entries is three times as large, of which a search looks at more than a million.
+// A Vertex_pair_index does the same for all lengths of a range, with tolerances of its own for each question. To build
+// it for the pairs of one length takes 1.36 times as long (5.42 ms against 3.99 ms for 110,000 pairs, kernels.cpp), and
+// each of its entries is three times as large, of which a search looks at more than a million.
 class Surfel_pair_index
 {
 public:
