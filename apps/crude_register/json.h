@@ -69,6 +69,9 @@ void add_result(Json& json, const CGAL::Crude_registration::Registration_result<
   json["target_has_free_space"] = result.target_has_free_space();
   json["target_from_source"] = to_json(result.transformation());
   json["crude_target_from_source"] = to_json(result.crude_transformation());
+  Json& correspondence = json["correspondence"] = Json::array();
+  for (const auto& [s, t] : result.correspondence())
+    correspondence.push_back({{s.x(), s.y(), s.z()}, {t.x(), t.y(), t.z()}});
   json["covariance"] = result.covariance();
   json["free_motions"] = result.free_motions();
   Json& runners_up = json["runners_up"] = Json::array();

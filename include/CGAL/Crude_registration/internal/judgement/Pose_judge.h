@@ -14,6 +14,7 @@
 
 // The third step of a registration: proposed poses are refined, weighed by evidence, and told apart.
 
+#include <CGAL/Crude_registration/internal/base/Correspondence.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/judgement/Chance.h>
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
@@ -49,17 +50,17 @@ public:
         m_fine_source_probes(neighbouring_probes(source.fine, 2500)),
         m_fine_target_probes(neighbouring_probes(target.fine, 2500)),
         m_source_probes(neighbouring_probes(source.fine, evidence_probes)),
-        m_target_probes(neighbouring_probes(target.fine, evidence_probes)),
-        m_usual(usual_log_ratios(coefficients)), m_extent(float((std::min)(source.extent, target.extent))),
-        m_fine_look(fine_look(source, target)),
+        m_target_probes(neighbouring_probes(target.fine, evidence_probes)), m_usual(usual_log_ratios(coefficients)),
+        m_extent(float((std::min)(source.extent, target.extent))), m_fine_look(fine_look(source, target)),
         m_tolerance(probe_tolerance(source.fine, target.fine, m_fine_look.free_depth))
   {}
 
   // Refines and weighs what a round of the search proposes: of the poses the best `number`, with no more than a few
-  // from around each place. `are_estimated`: by whoever proposed them, best first; `tried` are then all that were. What
-  // the earlier rounds brought is weighed again, as each round tells more of chance. Nothing is added if the run is
-  // stopped.
-  void add_round(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number, std::vector<Pose> tried)
+  // from around each place. `are_estimated`: by whoever proposed them, best first; `tried` are then all that were.
+  // `correspondences` have given them, unless there are none. What the earlier rounds brought is weighed again, as each
+  // round tells more of chance. Nothing is added if the run is stopped.
+  void add_round(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number, std::vector<Pose> tried,
+                 const std::vector<Correspondence>& correspondences = {})
   {
     std::vector<Estimated_pose> best;
     if (are_estimated)
@@ -69,6 +70,7 @@ public:
     for_each_index(m_execution, best.size(), m_control, [&](std::size_t i) {
       poses[i].pose = refined(best[i].pose);
       poses[i].proposed = proposed[best[i].index];
+      if (!correspondences.empty()) poses[i].correspondence = correspondences[best[i].index];
     });
     if (m_control.is_stopped()) return;
     add_candidates(tried);
@@ -170,7 +172,10 @@ private:
       const auto same = std::find_if(distinct.begin(), distinct.end(),
                                      [&](const Judged_pose& d) { return are_one(p.pose, d.pose, m_extent); });
       if (same == distinct.end()) distinct.push_back(p);
-      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) same->proposed = p.proposed;
+      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) {
+        same->proposed = p.proposed;
+        same->correspondence = p.correspondence;
+      }
     }
     return distinct;
   }
@@ -253,7 +258,7 @@ private:
   const Probe_tolerance m_tolerance;
   std::vector<Pose> m_candidates; // distinct; with what the probes of the source and of the target meet under them
   Outcome_table m_source_outcomes, m_target_outcomes;
-  std::vector<double> m_usual_evidence; // of the candidates, a probe
+  std::vector<double> m_usual_evidence;                   // of the candidates, a probe
   std::optional<Chance> m_source_chance, m_target_chance; // by the candidates so far
   std::vector<Judged_pose> m_judged;
   Outcome_table m_judged_source_outcomes, m_judged_target_outcomes;
