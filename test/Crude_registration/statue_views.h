@@ -116,9 +116,9 @@ inline double distance_to_samples(const Image& image, const Point& place)
   return std::sqrt(least);
 }
 
-// So many points that are no further from the samples than the points of the reduced surfaces are from each other, as
-// far from each other on either side to within `tolerance`, and that the crude motion and the true one take near to
-// each other. `spacing`: of the reduced surfaces, the larger one.
+// So many points, which lie on the samples as far as means of them do, are as far from each other on either side to
+// within `tolerance`, and are taken to their matches by the crude motion and by the true one as far as points of
+// reduced surfaces can be. `spacing`: of the points of the reduced surfaces, the larger one of the two.
 inline void check_correspondence(const Result& result, const View& source, const View& target, std::size_t number,
                                  double spacing, double tolerance)
 {
@@ -129,19 +129,12 @@ inline void check_correspondence(const Result& result, const View& source, const
     const auto& [s, t] = points[i];
     BOOST_TEST(distance_to_samples(source.image, s) < 0.5 * spacing);
     BOOST_TEST(distance_to_samples(target.image, t) < 0.5 * spacing);
-    BOOST_TEST_MESSAGE("spacings to the samples: "
-                       << distance_to_samples(source.image, s) / spacing << ", "
-                       << distance_to_samples(target.image, t) / spacing << ", crude: "
-                       << std::sqrt(CGAL::squared_distance(result.crude_transformation().transform(s), t)) / spacing
-                       << ", true: "
-                       << (truth(Vector(s.x(), s.y(), s.z())) - Vector(t.x(), t.y(), t.z())).norm() / spacing);
-    BOOST_TEST(CGAL::squared_distance(result.crude_transformation().transform(s), t) < 9 * spacing * spacing);
-    BOOST_TEST((truth(Vector(s.x(), s.y(), s.z())) - Vector(t.x(), t.y(), t.z())).norm() < 3 * spacing);
+    BOOST_TEST(CGAL::squared_distance(result.crude_transformation().transform(s), t) < 2.25 * spacing * spacing);
+    BOOST_TEST((truth(Vector(s.x(), s.y(), s.z())) - Vector(t.x(), t.y(), t.z())).norm() < 1.5 * spacing);
     for (std::size_t j = 0; j < i; ++j) {
       const double there = std::sqrt(CGAL::squared_distance(s, points[j].first)),
                    here = std::sqrt(CGAL::squared_distance(t, points[j].second));
-      BOOST_TEST(there > 2 * spacing);
-      BOOST_TEST_MESSAGE("length " << there / spacing << " differs by " << std::abs(there - here) / tolerance);
+      BOOST_TEST(there > 0);
       BOOST_TEST(std::abs(there - here) < (1 + 1e-6) * tolerance);
     }
   }
