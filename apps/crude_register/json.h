@@ -51,6 +51,15 @@ Json to_json(const CGAL::Aff_transformation_3<Kernel>& motion)
   return rows;
 }
 
+// Points of the source, each with the one of the target that it was matched with.
+template <class Point>
+Json to_json(const std::vector<std::pair<Point, Point>>& correspondence)
+{
+  Json points = Json::array();
+  for (const auto& [s, t] : correspondence) points.push_back({{s.x(), s.y(), s.z()}, {t.x(), t.y(), t.z()}});
+  return points;
+}
+
 // Adds the members of a result to an object. The times, which differ from run to run, are left out unless asked for:
 // all else is the same, byte for byte, for the same input.
 template <class Kernel>
@@ -69,6 +78,7 @@ void add_result(Json& json, const CGAL::Crude_registration::Registration_result<
   json["target_has_free_space"] = result.target_has_free_space();
   json["target_from_source"] = to_json(result.transformation());
   json["crude_target_from_source"] = to_json(result.crude_transformation());
+  json["correspondence"] = to_json(result.correspondence());
   json["covariance"] = result.covariance();
   json["free_motions"] = result.free_motions();
   Json& runners_up = json["runners_up"] = Json::array();

@@ -325,6 +325,7 @@ Pair_report report_of(const std::array<Side, 2>& sides, const Result& result, co
                               "How far the answer is from the true motion of the file of poses."});
   report.poses = poses_of(result);
   report.have_common_frame = result.status() != CR::NOT_REGISTERED;
+  report.correspondence = result.correspondence();
   return report;
 }
 

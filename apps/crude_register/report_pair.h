@@ -43,6 +43,7 @@ struct Pair_report
   std::vector<Report_pose> poses =
       {};                         // the first is looked at first; of no scans that are not registered there may be none
   bool have_common_frame = false; // the first pose is one that may be believed
+  CR::Registration_result<Kernel>::Correspondence correspondence = {}; // that the first pose comes from, if known
 };
 
 inline double coarser_spacing(const std::array<const CR::Scan<Kernel>*, 2>& scans)
@@ -248,6 +249,7 @@ private:
     m_data["steps_of_reach"] = steps_of_reach;
     m_data["have_common_frame"] = m_report.have_common_frame;
     m_data["numbers"] = to_json(m_report.numbers);
+    m_data["correspondence"] = to_json(m_report.correspondence);
     for (std::size_t i = 0; i < 2; ++i) {
       Json scan = add_scan(m_scans[i], i, m_bytes);
       scan["role"] = i == 0 ? "source" : "target";

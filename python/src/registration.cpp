@@ -163,6 +163,20 @@ py::list stages(const Result& result)
   return list;
 }
 
+// (n, 2, 3): of each correspondence the point of the source and that of the target.
+py::array_t<double> correspondence_of(const Result& result)
+{
+  const auto& pairs = result.correspondence();
+  py::array_t<double> array({py::ssize_t(pairs.size()), py::ssize_t(2), py::ssize_t(3)});
+  auto places = array.mutable_unchecked<3>();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      places(py::ssize_t(i), 0, k) = pairs[i].first[k];
+      places(py::ssize_t(i), 1, k) = pairs[i].second[k];
+    }
+  return array;
+}
+
 std::string json_of(const Result& result, bool times)
 {
   Json json = Json::object();
@@ -170,7 +184,7 @@ std::string json_of(const Result& result, bool times)
   return to_text(json);
 }
 
-constexpr int result_version = 1; // of the state that is pickled
+constexpr int result_version = 2; // of the state that is pickled
 
 py::tuple state_of(const Result& r)
 {
@@ -181,12 +195,12 @@ py::tuple state_of(const Result& r)
   return py::make_tuple(result_version, int(r.status()), r.reason(), to_matrix(r.transformation()),
                         to_matrix(r.crude_transformation()), r.confidence(), r.score(), r.overlap(), r.residual(),
                         r.free_space_violations(), r.source_has_free_space(), r.target_has_free_space(), r.covariance(),
-                        r.free_motions(), runners_up, statistics);
+                        r.free_motions(), runners_up, statistics, correspondence_of(r));
 }
 
 Result from_state(const py::tuple& state)
 {
-  if (state.size() != 16 || state[0].cast<int>() != result_version)
+  if (state.size() != 17 || state[0].cast<int>() != result_version)
     throw py::value_error("RegistrationResult: it was pickled by another version of the module");
   Result::Parts parts;
   const int status = state[1].cast<int>();
@@ -214,6 +228,13 @@ Result from_state(const py::tuple& state)
     const auto stage = item.cast<py::tuple>();
     parts.statistics.push_back({stage[0].cast<std::string>(), stage[1].cast<std::size_t>(), stage[2].cast<double>()});
   }
+  const auto points = state[16].cast<py::array_t<double>>();
+  if (points.ndim() != 3 || points.shape(1) != 2 || points.shape(2) != 3)
+    throw py::value_error("RegistrationResult: what was pickled has no correspondence");
+  const auto places = points.unchecked<3>();
+  for (py::ssize_t i = 0; i < points.shape(0); ++i)
+    parts.correspondence.emplace_back(Point(places(i, 0, 0), places(i, 0, 1), places(i, 0, 2)),
+                                      Point(places(i, 1, 0), places(i, 1, 1), places(i, 1, 2)));
   if (!(parts.confidence >= 0 && parts.confidence <= 1))
     throw py::value_error("RegistrationResult: what was pickled has no confidence");
   return Result(std::move(parts));
@@ -243,6 +264,10 @@ void bind_registration(py::module_& module)
   add(
       "crude_T_target_source", [](const Result& r) { return to_matrix(r.crude_transformation()); },
       "(4, 4): the motion before it was refined.");
+  add("correspondence", &correspondence_of,
+      "(n, 2, 3): the points that gave crude_T_target_source, each of the source with the one of the target that it "
+      "was\nmatched with, in the frames of the scans: 2 of a pair of oriented points, 4 of a trihedron, 0 if none is "
+      "known.");
   add("confidence", &Result::confidence, "How certain T_target_source is, from 0 to 1.");
   add("score", &Result::score,
       "The natural logarithm of the odds that T_target_source is right: what the evidence says of it alone.");

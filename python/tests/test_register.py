@@ -105,6 +105,9 @@ def test_a_result_says_what_it_is(views):
     assert repr(result).startswith("<RegistrationResult: registered, confidence 0.9") or "confidence 1" in repr(result)
     assert result.T_target_source.shape == result.crude_T_target_source.shape == (4, 4)
     assert result.covariance.shape == (6, 6)
+    assert result.correspondence.shape == (2, 2, 3)
+    lengths = np.linalg.norm(result.correspondence[0] - result.correspondence[1], axis=1)
+    assert np.all(lengths > 0) and abs(lengths[0] - lengths[1]) < 0.2 * lengths[0]
     assert np.array_equal(result.covariance, result.covariance.T)
     assert np.all(np.linalg.eigvalsh(result.covariance) >= -1e-18)
     assert np.array_equal(result.poses[0].T_target_source, result.T_target_source)
@@ -138,8 +141,9 @@ def test_results_are_pickled_to_the_bit(views):
     for result in (cr.register(views[0].image, v.image) for v in (views[1], views[3])):
         copy = pickle.loads(pickle.dumps(result))
         assert copy.to_json(times=True) == result.to_json(times=True)
+        assert np.array_equal(copy.correspondence, result.correspondence)
     state = list(result.__getstate__())
-    for i, wrong in ((0, 99), (1, 7), (5, 2.0)):
+    for i, wrong in ((0, 99), (1, 7), (5, 2.0), (16, np.zeros((2, 3)))):
         altered = state.copy()
         altered[i] = wrong
         with pytest.raises(ValueError, match="RegistrationResult"):

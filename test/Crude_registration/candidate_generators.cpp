@@ -239,6 +239,7 @@ BOOST_AUTO_TEST_CASE(the_crude_motion_is_as_it_was_proposed)
     const Result result =
         CR::register_scans(source->scan, target->scan, p::candidates(Known_motions(source->scan, {{aff(proposed)}})));
     check_right(result, *source, *target);
+    BOOST_TEST(result.correspondence().empty()); // nobody knows what it was proposed by
     const Rigid_motion crude = to_rigid_motion(result.crude_transformation()),
                        refined = to_rigid_motion(result.transformation());
     // The pipeline computes in float, in frames in the middle of the scans.

@@ -135,6 +135,11 @@ for matrix in target_from_source:3:4 crude_target_from_source:3:4 covariance:6:6
       fail "row $row of $name has not $columns numbers"
   done
 done
+# Two points of a pair, each with the one that it was matched with.
+for point in 0/0 0/1 1/0 1/1; do
+  "$json_at" "/correspondence/$point" < out.txt | awk -F, 'NF != 3 { exit 1 } END { exit NR != 1 }' ||
+    fail "point $point of correspondence has not 3 numbers"
+done
 # The motion is the one that is written, to the last bit.
 for row in 0 1 2; do
   json_row=$("$json_at" "/target_from_source/$row" < out.txt | tr -d '[]' | tr , ' ')

@@ -7,6 +7,7 @@
 
 #include <CGAL/Simple_cartesian.h>
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <locale>
@@ -20,6 +21,7 @@ namespace {
 namespace CR = CGAL::Crude_registration;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Result = CR::Registration_result<Kernel>;
+using Point = Kernel::Point_3;
 using Transformation = Result::Transformation;
 
 // A locale's worst: a comma for the decimal point and dots between thousands.
@@ -39,6 +41,7 @@ Result some_result()
   parts.status = CR::AMBIGUOUS;
   parts.reason = "a \"plane\"\n";
   parts.transformation = motion;
+  parts.correspondence = {{Point(1. / 3, 2, 3), Point(4, 5, -1e-300)}, {Point(0, 0, 0), Point(7, 8, 0.1)}};
   parts.confidence = 0.1;
   parts.overlap = 1. / 3;
   parts.score = 1e-300;
@@ -84,6 +87,13 @@ BOOST_AUTO_TEST_CASE(every_member_is_read_back_to_the_last_bit)
   BOOST_TEST(!json.at("target_has_free_space").get<bool>());
   check_motion(json.at("target_from_source"), motion);
   check_motion(json.at("crude_target_from_source"), Transformation(CGAL::IDENTITY));
+  const auto points = json.at("correspondence").get<std::vector<std::array<std::array<double, 3>, 2>>>();
+  BOOST_REQUIRE(points.size() == result.correspondence().size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      BOOST_TEST(points[i][0][k] == result.correspondence()[i].first[int(k)]);
+      BOOST_TEST(points[i][1][k] == result.correspondence()[i].second[int(k)]);
+    }
   const Json& covariance = json.at("covariance");
   BOOST_REQUIRE(covariance.size() == 6);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -100,14 +110,14 @@ BOOST_AUTO_TEST_CASE(every_member_is_read_back_to_the_last_bit)
   BOOST_REQUIRE(json.at("statistics").size() == 2);
   BOOST_TEST(json["statistics"][0].at("stage").get<std::string>() == "reduce");
   BOOST_TEST(json["statistics"][0].at("count").get<std::size_t>() == 123456789u);
-  BOOST_TEST(json.size() == 15u); // and nothing else
+  BOOST_TEST(json.size() == 16u); // and nothing else
 }
 
 BOOST_AUTO_TEST_CASE(a_result_of_nothing_has_empty_lists)
 {
   const Json json = Json::parse(text_of(Result()));
   BOOST_TEST(json.at("status").get<std::string>() == "not_registered");
-  for (const char* name : {"free_motions", "runners_up", "statistics"})
+  for (const char* name : {"correspondence", "free_motions", "runners_up", "statistics"})
     BOOST_TEST((json.at(name).is_array() && json.at(name).empty()));
 }
 

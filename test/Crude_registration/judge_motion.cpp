@@ -52,6 +52,7 @@ BOOST_AUTO_TEST_CASE(true_motions_are_right)
     BOOST_TEST(judgement.confidence() >= 0.9);
     BOOST_TEST(judgement.displacement() < 0.5);
     check_right(judgement.refined(), a, b);
+    BOOST_TEST(judgement.refined().correspondence().empty()); // it was given, not found
   }
 }
 

@@ -45,6 +45,14 @@ void check_same(const Result& a, const Result& b, const Vector& centre, double t
   BOOST_TEST(difference(to_rigid_motion(a.transformation()), to_rigid_motion(b.transformation()), centre) < tolerance);
 }
 
+// A pair of oriented points, which is looked for at lengths of 0.3 spacings about some, among those that are within 0.7
+// spacings of them.
+void check_pair(const Result& result, const View& source, const View& target)
+{
+  const auto spacing = double((std::max)(source.scan.reduced().coarse.spacing, target.scan.reduced().coarse.spacing));
+  check_correspondence(result, source, target, 2, spacing, (0.3 + 0.7) * spacing);
+}
+
 // With x -> -x.
 Image mirrored(const Image& image)
 {
@@ -73,6 +81,7 @@ BOOST_AUTO_TEST_CASE(views_that_overlap_are_registered)
         // The crude motion is near, and the refined one nearer than a sampling distance or two.
         BOOST_TEST(angle_between(to_rigid_motion(result.crude_transformation()), true_motion(source, target)) < 5);
         for (const auto& other : result.runners_up()) BOOST_TEST(other.score <= result.score());
+        check_pair(result, source, target);
       }
     }
 }
@@ -117,6 +126,9 @@ BOOST_AUTO_TEST_CASE(swapped_scans_give_the_inverse)
     BOOST_TEST(there.confidence() == back.confidence());
     BOOST_TEST(there.score() == back.score());
     BOOST_TEST(there.runners_up().size() == back.runners_up().size());
+    check_pair(there, view(0, a), view(0, b));
+    check_pair(back, view(0, b), view(0, a));
+    check_swapped_correspondence(there, back);
   }
 }
 

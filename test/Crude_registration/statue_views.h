@@ -18,6 +18,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -101,9 +102,50 @@ inline void check_not_registered(const Result& result)
   check_proper(result);
   BOOST_TEST(result.status() != CR::REGISTERED);
   if (result.status() == CR::NOT_REGISTERED) {
+    BOOST_TEST(result.correspondence().empty());
     BOOST_TEST((to_rigid_motion(result.transformation()).rotation == Matrix::Identity()));
     BOOST_TEST(to_rigid_motion(result.transformation()).translation.norm() == 0.);
   }
+}
+
+// How far a point is from the nearest sample of an image.
+inline double distance_to_samples(const Image& image, const Point& place)
+{
+  double least = (std::numeric_limits<double>::max)();
+  for (const Point& p : image.points()) least = (std::min)(least, CGAL::squared_distance(p, place));
+  return std::sqrt(least);
+}
+
+// So many points, which lie on the samples as far as means of them do, are as far from each other on either side to
+// within `tolerance`, and are taken to their matches by the crude motion and by the true one as far as points of
+// reduced surfaces can be. `spacing`: of the points of the reduced surfaces, the larger one of the two.
+inline void check_correspondence(const Result& result, const View& source, const View& target, std::size_t number,
+                                 double spacing, double tolerance)
+{
+  const Result::Correspondence& points = result.correspondence();
+  BOOST_TEST(points.size() == number);
+  const Rigid_motion truth = true_motion(source, target);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& [s, t] = points[i];
+    BOOST_TEST(distance_to_samples(source.image, s) < 0.5 * spacing);
+    BOOST_TEST(distance_to_samples(target.image, t) < 0.5 * spacing);
+    BOOST_TEST(CGAL::squared_distance(result.crude_transformation().transform(s), t) < 2.25 * spacing * spacing);
+    BOOST_TEST((truth(Vector(s.x(), s.y(), s.z())) - Vector(t.x(), t.y(), t.z())).norm() < 1.5 * spacing);
+    for (std::size_t j = 0; j < i; ++j) {
+      const double there = std::sqrt(CGAL::squared_distance(s, points[j].first)),
+                   here = std::sqrt(CGAL::squared_distance(t, points[j].second));
+      BOOST_TEST(there > 0);
+      BOOST_TEST(std::abs(there - here) < (1 + 1e-6) * tolerance);
+    }
+  }
+}
+
+// The one of two answers, for scans in the one order and the other, is the other one read the other way round.
+inline void check_swapped_correspondence(const Result& there, const Result& back)
+{
+  Result::Correspondence swapped;
+  for (const auto& [s, t] : back.correspondence()) swapped.emplace_back(t, s);
+  BOOST_TEST((there.correspondence() == swapped));
 }
 
 inline Mesh mesh_of(const Image& image)
@@ -127,6 +169,7 @@ inline void check_same_bits(const Result& first, const Result& second)
   BOOST_TEST(first.overlap() == second.overlap());
   BOOST_TEST(first.residual() == second.residual());
   BOOST_TEST((first.covariance() == second.covariance()));
+  BOOST_TEST((first.correspondence() == second.correspondence()));
   BOOST_TEST_REQUIRE(first.runners_up().size() == second.runners_up().size());
   for (std::size_t i = 0; i < first.runners_up().size(); ++i)
     BOOST_TEST(first.runners_up()[i].score == second.runners_up()[i].score);

@@ -57,6 +57,22 @@ const Scan& prepared(int degrees, unsigned seed = 0)
   return scans.emplace(key, Scan(whole(degrees, seed).image, p::candidates(trihedra))).first->second;
 }
 
+// A trihedron, whose vertices may be off by 0.8 spacings of the target at most. The pipeline may have exchanged the
+// two.
+void check_trihedron(const Result& result, int source, int target)
+{
+  const double spacing =
+      (std::max)(prepared(source).reduced().simplified->spacing, prepared(target).reduced().simplified->spacing);
+  check_correspondence(result, whole(source), whole(target), 4, spacing, 0.8 * spacing);
+  std::array<CGAL::Orientation, 2> sides;
+  const auto& points = result.correspondence();
+  BOOST_TEST_REQUIRE(points.size() == 4u);
+  sides[0] = CGAL::orientation(points[0].first, points[1].first, points[2].first, points[3].first);
+  sides[1] = CGAL::orientation(points[0].second, points[1].second, points[2].second, points[3].second);
+  BOOST_TEST(sides[0] != CGAL::COPLANAR);
+  BOOST_TEST(sides[0] == sides[1]);
+}
+
 std::size_t simplified_size(const Scan& scan)
 {
   return scan.reduced().simplified->vertices.points.size();
@@ -120,6 +136,9 @@ BOOST_AUTO_TEST_CASE(scans_that_are_prepared_once_from_either_side)
                  back = CR::register_scans(prepared(b), prepared(a), p::candidates(trihedra));
     check_right(there, whole(a), whole(b));
     check_right(back, whole(b), whole(a));
+    check_trihedron(there, a, b);
+    check_trihedron(back, b, a);
+    check_swapped_correspondence(there, back);
     BOOST_TEST(there.confidence() == back.confidence());
     BOOST_TEST(there.score() == back.score());
     for (const auto& [m, n] : {std::pair(there.transformation(), back.inverse_transformation()),

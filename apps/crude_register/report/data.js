@@ -17,7 +17,7 @@ const state = {
   component: 0,
   visible: report.scans.map(() => true),
   point_size: 1,
-  correspondences: 0, // that are drawn
+  correspondence: 0, // points of either scan that are drawn: of the pair or the trihedron that the motion was found by
   plane: false,
   cut: false,
   picked: null,

@@ -27,6 +27,16 @@ function show_picked(best) {
     (m.in_free_space ? "; in free space" : "") + ".");
 }
 
+// What the lines are that are drawn of so many corresponding points.
+function show_correspondence(count) {
+  const text = by_id("correspondence_text");
+  text.hidden = count === 0;
+  text.textContent = count === 0 ? "" :
+    (count === 2 ? "Thick lines: the pair of oriented points of the source, and the pair of the target that it was matched with" :
+      "Thick lines: the trihedron of the source, three edges from one vertex, and the one of the target that it was matched with") +
+    ". This match proposed the answer. Thin lines lead from each point to its match. The motion was then estimated again from all that agrees, so that it takes them near each other, not onto each other; the runners-up come from other matches.";
+}
+
 function show_legend() {
   const legend = by_id("legend");
   if (state.colour === "scan") {

@@ -94,8 +94,7 @@ function choose_pose(k) {
   mark_pose();
   the_section.set_range();
   if (state.picked && the_view) the_view.unmark();
-  // To see what it does, but where lines show that.
-  if (state.layout !== "together" && !state.correspondences) choose_layout("together");
+  if (state.layout !== "together") choose_layout("together"); // to see what it does
   else update_all();
 }
 show_poses(choose_pose);
@@ -113,8 +112,8 @@ if (the_view) {
     state.point_size = Number(e.target.value);
     the_view.update();
   });
-  by_id("correspondences").addEventListener("change", () => the_view.update());
-  by_id("correspondences_choice").hidden = !(is_pair && has_poses);
+  by_id("correspondence").addEventListener("change", () => the_view.update());
+  by_id("correspondence_choice").hidden = !correspondence.length;
 }
 function section_changed() {
   the_section.ask();

@@ -118,25 +118,9 @@ function set_apart(directions) {
   });
 }
 
-// Of points of the source that have the target close by, those that fit best, spread over the scan: with their places on
-// the target, in the frames of the files.
-function corresponding_points() {
-  if (!is_pair || !report.poses.length) return [];
-  const source = scans[0], met = met_of(source), cells = 6, best = new Map();
-  for (let i = 0; i < source.count; ++i) {
-    const m = meeting_of(met[i]);
-    if (m.step === null || m.in_free_space) continue;
-    let cell = 0;
-    for (let k = 0; k < 3; ++k)
-      cell = cell * cells + Math.min(cells - 1, Math.floor((cells * source.places[3 * i + k]) / most_of_places));
-    const before = best.get(cell);
-    if (!before || Math.abs(m.step) < before.off) best.set(cell, { off: Math.abs(m.step), i });
-  }
-  return [...best.values()].map(({ i }) => {
-    const p = point_of(source, i);
-    return [p, apply(motion_of(source), p)];
-  });
-}
+// The points that the motion was found by, each of the source with the one of the target that it was matched with, in the
+// frames of the files.
+const correspondence = report.correspondence || [];
 
 function make_view() {
   const canvas = by_id("view");
@@ -187,14 +171,17 @@ function make_view() {
     return object;
   });
 
-  const lines = new THREE.LineSegments(new THREE.BufferGeometry(),
+  // On top of the scans, whatever is before them.
+  const links = new THREE.LineSegments(new THREE.BufferGeometry(),
     new THREE.LineBasicMaterial({ transparent: true, opacity: 0.55, depthTest: false }));
   const ends = new THREE.Points(new THREE.BufferGeometry(),
-    new THREE.PointsMaterial({ size: 5 * (window.devicePixelRatio || 1), sizeAttenuation: false, depthTest: false }));
+    new THREE.PointsMaterial({ transparent: true, size: 8 * (window.devicePixelRatio || 1), sizeAttenuation: false, depthTest: false }));
+  const edges = Array.from({ length: is_pair ? 2 * Math.max(0, correspondence.length - 1) : 0 }, () =>
+    new THREE.Mesh(new THREE.CylinderBufferGeometry(1, 1, 1, 8), new THREE.MeshBasicMaterial({ transparent: true, depthTest: false })));
   const plane = new THREE.Mesh(new THREE.BufferGeometry(),
     new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.22, side: THREE.DoubleSide, depthWrite: false }));
   const frame = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
-  for (const object of [lines, ends, plane, frame]) {
+  for (const object of [links, ends, ...edges, plane, frame]) {
     object.frustumCulled = false;
     object.visible = false;
     scene.add(object);
@@ -228,17 +215,26 @@ function make_view() {
     });
   }
 
-  function place_correspondences() {
-    const wanted = by_id("correspondences").checked && is_shown(scans[0]) && is_shown(scans[1]);
-    const pairs = wanted ? corresponding_points() : [];
-    state.correspondences = pairs.length;
-    lines.visible = ends.visible = pairs.length > 0;
-    if (!pairs.length) return;
-    const source = placed(scans[0]), target = placed(scans[1]);
-    const points = pairs.flatMap(([p, q]) => [in_scene(apply(source, p)), in_scene(apply(target, q))]);
-    set_points(lines, points);
-    set_points(ends, points);
-    for (const object of [lines, ends]) object.material.color.set(style_of("--text"));
+  function place_correspondence() {
+    const is_wanted = by_id("correspondence").checked && is_shown(scans[0]) && is_shown(scans[1]);
+    const places = [0, 1].map((side) => (is_wanted ? correspondence.map((pair) => in_scene(apply(placed(scans[side]), pair[side]))) : []));
+    const count = places[0].length;
+    state.correspondence = count;
+    show_correspondence(count);
+    links.visible = ends.visible = count > 0;
+    for (const edge of edges) edge.visible = count > 0;
+    if (!count) return;
+    set_points(links, places[0].flatMap((p, i) => [p, places[1][i]]));
+    set_points(ends, [...places[0], ...places[1]]);
+    // Of either side from the first point to each of the others: long and thin along y.
+    edges.forEach((edge, k) => {
+      const side = places[k % 2], from = new THREE.Vector3(...side[0]), to = new THREE.Vector3(...side[1 + Math.floor(k / 2)]);
+      const along = to.clone().sub(from), width = 0.0025;
+      edge.position.copy(from).add(to).multiplyScalar(0.5);
+      edge.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.clone().normalize());
+      edge.scale.set(width, along.length(), width);
+    });
+    for (const object of [links, ends, ...edges]) object.material.color.set(style_of("--text"));
   }
 
   function place_plane() {
@@ -252,7 +248,7 @@ function make_view() {
 
   function update() {
     place_scans();
-    place_correspondences();
+    place_correspondence();
     place_plane();
     ask();
   }

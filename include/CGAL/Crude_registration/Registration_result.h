@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Point_3.h>
 #include <CGAL/assertions.h>
 
 #include <array>
@@ -50,6 +51,9 @@ public:
   /// The type of the transformations.
   using Transformation = Aff_transformation_3<Kernel>;
 
+  /// The type of points of the source, each with the point of the target that it was matched with.
+  using Correspondence = std::vector<std::pair<Point_3<Kernel>, Point_3<Kernel>>>;
+
   /// The type of the covariance of a motion: six rows of six numbers.
   using Covariance = std::array<std::array<double, 6>, 6>;
 
@@ -77,6 +81,7 @@ public:
     std::string reason;
     Transformation transformation = Transformation(IDENTITY);
     Transformation crude_transformation = Transformation(IDENTITY);
+    Correspondence correspondence;
     double confidence = 0;
     double score = 0;
     double overlap = 0;
@@ -121,6 +126,15 @@ public:
   /// surfaces that agree under it, by `Trihedron_candidates` that of a trihedron, estimated again from all vertices of
   /// the simplified meshes that do.
   const Transformation& crude_transformation() const { return m_parts.crude_transformation; }
+
+  /// The points that gave crude_transformation(), each of the source with the one of the target that it was matched
+  /// with: by `Oriented_pair_candidates` the two of a pair, which are points of the reduced surfaces; by
+  /// `Trihedron_candidates` the vertices \f$ V, v_1, v_2, v_3 \f$ of a spatial trihedron and those that correspond to
+  /// them, which are vertices of the simplified meshes. Each point is in the frame of its scan. The distances within
+  /// either side are the same as far as the matching tolerates; crude_transformation(), which is estimated again from
+  /// far more, takes the ones near the others, not onto them. Empty if `NOT_REGISTERED`, if the motion was proposed by
+  /// a generator of your own, and of a motion that was judged.
+  const Correspondence& correspondence() const { return m_parts.correspondence; }
 
   /// The probability, in [0,1], that transformation() is right; at most 1/n where n distinct motions are equally good,
   /// at most 1/2 where the overlap leaves motions free. At least 0.9 if and only if `REGISTERED`.

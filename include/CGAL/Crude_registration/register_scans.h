@@ -49,6 +49,8 @@ Registration_result<Kernel> to_result(const Registration_outcome& outcome)
   if (parts.status != NOT_REGISTERED) {
     parts.transformation = to_aff_transformation<Kernel>(outcome.motion);
     parts.crude_transformation = to_aff_transformation<Kernel>(outcome.crude);
+    for (const auto& [s, t] : outcome.correspondence)
+      parts.correspondence.emplace_back(Point_3<Kernel>(s[0], s[1], s[2]), Point_3<Kernel>(t[0], t[1], t[2]));
     parts.covariance = rows_of(outcome.covariance);
   }
   parts.source_has_free_space = outcome.source_has_free_space;

@@ -22,7 +22,7 @@ function run(code, ...words) {
   return answer.stdout;
 }
 
-// Reports of two scans of a body, of a motion that is some sampling distances off, of two planes, of two bodies, of a run
+// Reports of two scans of a body, by pairs and by trihedra, of a motion that is some sampling distances off, of two planes, of two bodies, of a run
 // that had no time, and of an assembly that leaves out a scan of another body.
 function make_reports() {
   rmSync(folder, { recursive: true, force: true });
@@ -31,6 +31,8 @@ function make_reports() {
   run(0, "simulate", "--output", "other", "--scans", "2", "--samples", "110", "--seed", "5");
   const [source, target] = [0, 1].map((i) => join("body", `scan_${i}.ply`)), other = join("other", "scan_1.ply");
   const answer = JSON.parse(run(0, "register", source, target, "--report", "pair.html", "--json"));
+  run(0, "simulate", "--output", "fine", "--scans", "4", "--samples", "200"); // whose meshes have trihedra
+  run(0, "register", ...[0, 1].map((i) => join("fine", `scan_${i}.ply`)), "--method", "trihedra", "--report", "trihedra.html");
   const spacing = 2.5 / 130; // about: the body is as large, and the grid has so many columns
   writeFileSync(join(folder, "motion.txt"), answer.target_from_source.map((row) => [...row.slice(0, 3), row[3] + 2 * spacing].join(" ")).join("\n"));
   run(2, "judge", source, target, "--motion", "motion.txt", "--report", "judged.html");
@@ -294,13 +296,41 @@ async function check_pair(page) {
   check((await page.value("document.querySelectorAll('#numbers tr').length")) === (await page.value("report.numbers.length")), page.name + ": numbers are missing");
   check(await page.value("report.numbers.every((n) => n.name && n.value && n.meaning.length > 15)"), page.name + ": a number is not explained");
   check(await page.value("[...document.querySelectorAll('#verdict p')].every((p) => p.textContent.length > 20)"), page.name + ": there is no verdict in words");
-  await press(page, "input[name=layout][value=apart]");
-  await changes(page, page.name + ": corresponding points", "view", () => press(page, "#correspondences"), async () => {
-    check((await state(page, ".correspondences")) > 10, page.name + ": hardly any corresponding points");
-    await press(page, "#correspondences");
-  });
-  check((await state(page, ".correspondences")) === 0, page.name + ": corresponding points stay");
-  await press(page, "input[name=layout][value=together]");
+}
+
+// The points of a pair or a trihedron: on the scans, near each other as the motion takes them, and seen wherever the scans
+// lie.
+async function check_correspondence(page, number) {
+  const off = await page.value(`(() => {
+    const distance = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    const to_scan = (scan, p) => {
+      let least = Infinity;
+      for (let i = 0; i < scan.count; ++i) least = Math.min(least, distance(p, point_of(scan, i)));
+      return least;
+    };
+    const largest = (of) => Math.max(...report.correspondence.map(of)) / report.spacing;
+    return {
+      number: report.correspondence.length,
+      scans: [0, 1].map((side) => largest((pair) => to_scan(scans[side], pair[side]))),
+      matches: largest(([s, t]) => distance(apply(report.poses[0].motions[0], s), t)),
+      size: Math.max(...scans[1].size) / report.spacing,
+    };
+  })()`);
+  check(off.number === number, page.name + ": " + off.number + " corresponding points");
+  check(off.scans.every((d) => d < 0.02 * off.size), page.name + ": corresponding points are not on the scans: " + JSON.stringify(off));
+  check(off.matches < 0.1 * off.size, page.name + ": corresponding points are not near each other: " + JSON.stringify(off));
+  for (const layout of ["files", "apart", "together"]) {
+    await press(page, `input[name=layout][value=${layout}]`);
+    await changes(page, page.name + ": what the motion was found by, " + layout, "view", () => press(page, "#correspondence"), async () => {
+      check((await state(page, ".correspondence")) === number, page.name + ": corresponding points are missing");
+      const text = await page.value("document.getElementById('correspondence_text').textContent");
+      check(text.includes(number === 2 ? "pair of oriented points" : "trihedron"), page.name + ": it is not said what is drawn: " + text);
+      if (layout === "apart") writeFileSync(join(folder, page.name.replaceAll(/[^a-z0-9]+/g, "_") + "_found_by.png"), await page.screenshot());
+      await press(page, "#correspondence");
+    });
+    check((await state(page, ".correspondence")) === 0, page.name + ": corresponding points stay");
+    check(await page.value("document.getElementById('correspondence_text').hidden"), page.name + ": the text of what is not drawn stays");
+  }
 }
 
 async function check_assembly(page) {
@@ -349,6 +379,11 @@ try {
   await check_theme(page);
   await check_motions(page);
   await check_pair(page);
+  await check_correspondence(page, 2);
+  await closed(page);
+
+  page = await opened(browser, "trihedra.html", wide);
+  await check_correspondence(page, 4);
   await closed(page);
 
   page = await opened(browser, "pair.html", { ...narrow, dark: true });
@@ -358,6 +393,7 @@ try {
 
   page = await opened(browser, "judged.html", wide);
   check((await page.value("report.poses[0].name")) === "Given", page.name + ": the motion that was given is not the first");
+  check(await page.value("document.getElementById('correspondence_choice').hidden"), page.name + ": nobody knows what it was found by");
   await check_motions(page);
   await closed(page);
 

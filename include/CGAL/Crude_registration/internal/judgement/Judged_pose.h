@@ -14,6 +14,7 @@
 
 // A pose and how it explains the scans.
 
+#include <CGAL/Crude_registration/internal/base/Correspondence.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
 namespace CGAL {
@@ -43,7 +44,8 @@ struct Pose_evidence
 struct Judged_pose
 {
   Pose pose;
-  Pose proposed; // before the refinement
+  Pose proposed;                 // before the refinement
+  Correspondence correspondence; // that has given `proposed`, where it is known
   Pose_evidence evidence;
   double log_odds = 0; // of being right, against there being no right one, as chance is between the two scans
   double usual_log_odds = 0;

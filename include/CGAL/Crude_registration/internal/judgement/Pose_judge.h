@@ -14,6 +14,7 @@
 
 // The third step of a registration: proposed poses are refined, weighed by evidence, and told apart.
 
+#include <CGAL/Crude_registration/internal/base/Correspondence.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/judgement/Chance.h>
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
@@ -55,10 +56,11 @@ public:
   {}
 
   // Refines and weighs what a round of the search proposes: of the poses the best `number`, with no more than a few
-  // from around each place. `are_estimated`: by whoever proposed them, best first; `tried` are then all that were. What
-  // the earlier rounds brought is weighed again, as each round tells more of chance. Nothing is added if the run is
-  // stopped.
-  void add_round(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number, std::vector<Pose> tried)
+  // from around each place. `are_estimated`: by whoever proposed them, best first; `tried` are then all that were.
+  // `correspondences` have given them, unless there are none. What the earlier rounds brought is weighed again, as each
+  // round tells more of chance. Nothing is added if the run is stopped.
+  void add_round(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number, std::vector<Pose> tried,
+                 const std::vector<Correspondence>& correspondences = {})
   {
     std::vector<Estimated_pose> best;
     if (are_estimated)
@@ -68,6 +70,7 @@ public:
     for_each_index(m_execution, best.size(), m_control, [&](std::size_t i) {
       poses[i].pose = refined(best[i].pose);
       poses[i].proposed = proposed[best[i].index];
+      if (!correspondences.empty()) poses[i].correspondence = correspondences[best[i].index];
     });
     if (m_control.is_stopped()) return;
     add_candidates(tried);
@@ -169,7 +172,10 @@ private:
       const auto same = std::find_if(distinct.begin(), distinct.end(),
                                      [&](const Judged_pose& d) { return are_one(p.pose, d.pose, m_extent); });
       if (same == distinct.end()) distinct.push_back(p);
-      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) same->proposed = p.proposed;
+      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) {
+        same->proposed = p.proposed;
+        same->correspondence = p.correspondence;
+      }
     }
     return distinct;
   }

@@ -14,6 +14,7 @@
 
 // The second step of a registration, to propose poses, as the pipeline sees it, whatever the method.
 
+#include <CGAL/Crude_registration/internal/base/Correspondence.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
@@ -62,6 +63,7 @@ struct Proposals
   std::size_t judged = 0;     // so many of them, after refinement, are worth a close look
   bool are_estimated = false; // from all of the surface that agrees under them, not from a few correspondences
   std::vector<Pose> tried;    // where they are, all that were
+  std::vector<Correspondence> correspondences; // that have given the poses, in the own frames; or none at all
 };
 
 // Proposes poses for two scans, round by round: a next round is asked for as long as nothing is certain.

@@ -21,6 +21,7 @@
 #include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
+#include <CGAL/Crude_registration/internal/matching/Matched_pair.h>
 #include <CGAL/Crude_registration/internal/matching/extents.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
@@ -109,15 +110,20 @@ public:
     narrow(candidates, 40, 4 * round.kept, control);
     score(candidates, 100, 0, control);
     std::vector<Pose> kept;
+    std::vector<Matched_pair> pairs;
     for (const Candidate& c : candidates) {
       if (kept.size() == round.kept) break;
-      if (std::none_of(kept.begin(), kept.end(), [&](const Pose& p) { return are_close(c.pose, p, m_spacing); }))
-        kept.push_back(c.pose);
+      if (std::any_of(kept.begin(), kept.end(), [&](const Pose& p) { return are_close(c.pose, p, m_spacing); }))
+        continue;
+      kept.push_back(c.pose);
+      pairs.push_back(c.pair);
     }
     // A pair fixes its motion to some degrees only; all that agrees under it tells more.
     for (const Estimated_pose& p :
-         estimated_again(m_source, m_target, kept, round.judged, m_execution, control, proposals.tried))
+         estimated_again(m_source, m_target, kept, round.judged, m_execution, control, proposals.tried)) {
       proposals.poses.push_back(p.pose);
+      proposals.correspondences.push_back(correspondence(pairs[p.index], m_source.coarse, m_target.coarse));
+    }
     proposals.are_estimated = true;
     proposals.judged = round.judged;
     return true;
@@ -136,6 +142,7 @@ private:
   {
     Pose pose;
     float score;
+    Matched_pair pair;
   };
 
   struct Source_pair
@@ -332,6 +339,7 @@ private:
                  &b = m_source.coarse.surfels[std::size_t(p.second)];
     const Vector_f middle = 0.5f * (a.position + b.position);
     const Matrix_f source_frame = pair_frame(a, b).transpose();
+    const std::array<std::uint16_t, 2> source_pair = {std::uint16_t(p.first), std::uint16_t(p.second)};
     const Curvature_window window(Pair_curvatures::of(a, b), int(float(round.curvature_tolerance) * m_curvature_noise));
     const auto examine = [&](const Surfel_pair_index::Entry& e) {
       const Surfel &c = m_target.coarse.surfels[e.first], &c1 = m_target.coarse.surfels[e.second];
@@ -346,7 +354,7 @@ private:
       Pose pose;
       pose.rotation = frame * source_frame;
       pose.translation = there - pose.rotation * middle;
-      matches.candidates.push_back({pose, 0});
+      matches.candidates.push_back({pose, 0, {source_pair, {e.first, e.second}}});
     };
     const auto look = [&](const Surfel_pair_index::Entry* from, const Surfel_pair_index::Entry* to) {
       matches.looks += std::size_t(to - from);

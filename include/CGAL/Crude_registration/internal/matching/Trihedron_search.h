@@ -102,7 +102,10 @@ public:
     std::vector<Spatial_trihedron> trihedra = chosen(pass);
     if (trihedra.empty()) return true;
     const std::vector<Crude_motion> crude = crude_motions(match(pass, trihedra, control), pass.distinct, control);
-    for (const Crude_motion& c : crude) proposals.poses.push_back(to_pose(c.motion));
+    for (const Crude_motion& c : crude) {
+      proposals.poses.push_back(to_pose(c.motion));
+      proposals.correspondences.push_back(correspondence(trihedra[std::size_t(c.candidate.trihedron)], c.candidate));
+    }
     proposals.judged = judged;
     return true;
   }
@@ -122,7 +125,8 @@ private:
 
   struct Crude_motion
   {
-    Rigid_motion trihedron_motion, motion;
+    Candidate_motion candidate; // of a trihedron
+    Rigid_motion motion;        // estimated again
     double score;
   };
 
@@ -224,6 +228,17 @@ private:
                      (std::max)(0., (difference * m_covariance * difference.transpose()).trace()));
   }
 
+  // V, v1, v2, v3, and what they were matched with. \pre The ends are in the order in which they were matched.
+  Correspondence correspondence(const Spatial_trihedron& trihedron, const Candidate_motion& candidate) const
+  {
+    const std::array<std::int32_t, 4> s = {trihedron.origin, trihedron.ends[0], trihedron.ends[1], trihedron.ends[2]};
+    Correspondence result;
+    for (std::size_t i = 0; i < 4; ++i)
+      result.emplace_back(m_s.vertices.points[std::size_t(s[i])],
+                          m_d.vertices.points[std::size_t(candidate.vertices[i])]);
+    return result;
+  }
+
   std::vector<Spatial_trihedron> chosen(const Trihedron_pass& pass)
   {
     const Stage_timer timer(m_trihedra);
@@ -307,11 +322,11 @@ private:
     for (const Scored_candidate& c : candidates) {
       if (crude.size() == distinct) break;
       const Rigid_motion& m = c.candidate.motion;
-      if (is_distinct(m, crude, m_spacing, [](const Crude_motion& r) { return r.trihedron_motion; }))
-        crude.push_back({m, m, 0});
+      if (is_distinct(m, crude, m_spacing, [](const Crude_motion& r) { return r.candidate.motion; }))
+        crude.push_back({c.candidate, m, 0});
     }
     for_each_index(m_execution, crude.size(), control, [&](std::size_t i) {
-      crude[i].motion = reestimated(crude[i].trihedron_motion);
+      crude[i].motion = reestimated(crude[i].candidate.motion);
       crude[i].score = score_of(crude[i].motion, all);
     });
     keep_best(crude, crude.size());

@@ -14,6 +14,7 @@
 
 // The steps of a registration of scans that are reduced: propose, judge, refine, conclude.
 
+#include <CGAL/Crude_registration/internal/base/Correspondence.h>
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/base/compiled.h>
@@ -39,6 +40,7 @@ struct Registration_outcome
   bool is_swapped = false;                 // the poses map the target to the source
   Rigid_motion source_frame, target_frame; // own from input, of what the poses call source and target
   Rigid_motion crude, motion;              // target from source, in the frames of the input
+  Correspondence correspondence;           // that has given `crude`, in the frames of the input, where it is known
   Agreement agreement;                     // of the refined motion
   double overlap = 0, residual = 0;
   bool source_has_free_space = false, target_has_free_space = false;

@@ -87,7 +87,8 @@ void propose_and_judge(Candidate_source& candidates, Pose_judge& judge, Stage_re
     Proposals proposals;
     if (!candidates.next(control, proposals) || control.is_stopped()) return;
     const Stage_timer timer(stage);
-    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
+    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried),
+                    proposals.correspondences);
     if (control.is_stopped()) return;
     stage.count = judge.number_of_judged();
     if (are_enough()) return;
@@ -119,6 +120,10 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   const Rigid_motion& own = refinement.motion;
   outcome.motion = outcome.to_input(own);
   outcome.crude = outcome.to_input(to_rigid_motion(outcome.poses.front().proposed));
+  for (const auto& [s, t] : outcome.poses.front().correspondence) {
+    outcome.correspondence.emplace_back(outcome.source_frame.inverse()(s), outcome.target_frame.inverse()(t));
+    if (outcome.is_swapped) std::swap(outcome.correspondence.back().first, outcome.correspondence.back().second);
+  }
   outcome.residual = refinement.residual / (std::max)(source.spacing, target.spacing);
   outcome.agreement = judge.assess(to_pose(own));
   outcome.overlap =
