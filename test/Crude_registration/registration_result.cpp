@@ -51,6 +51,7 @@ BOOST_AUTO_TEST_CASE(a_result_of_nothing_is_not_registered)
   BOOST_CHECK(result.transformation().transform(p) == p);
   BOOST_CHECK(result.inverse_transformation().transform(p) == p);
   BOOST_TEST(result.runners_up().empty());
+  BOOST_TEST(result.correspondence().empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_status_is_written_as_its_name)
