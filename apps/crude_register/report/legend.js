@@ -34,7 +34,7 @@ function show_correspondence(count) {
   text.textContent = count === 0 ? "" :
     (count === 2 ? "Thick lines: the pair of oriented points of the source, and the pair of the target that it was matched with" :
       "Thick lines: the trihedron of the source, three edges from one vertex, and the one of the target that it was matched with") +
-    ". This match proposed the answer. Thin lines lead from each point to its match. The motion was then estimated again from all that agrees, so that it takes them near each other, not onto each other; the runners-up come from other matches.";
+    ". This match proposed the answer. Thin lines lead from each point to its match. The motion was then estimated again from all that agrees, so that it need not take them onto each other; the runners-up come from other matches.";
 }
 
 function show_legend() {

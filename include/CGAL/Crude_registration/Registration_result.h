@@ -132,7 +132,7 @@ public:
   /// `Trihedron_candidates` the vertices \f$ V, v_1, v_2, v_3 \f$ of a spatial trihedron and those that correspond to
   /// them, which are vertices of the simplified meshes. Each point is in the frame of its scan. The distances within
   /// either side are the same as far as the matching tolerates; crude_transformation(), which is estimated again from
-  /// far more, takes the ones near the others, not onto them. Empty if `NOT_REGISTERED`, if the motion was proposed by
+  /// far more, need not take the ones onto the others. Empty if `NOT_REGISTERED`, if the motion was proposed by
   /// a generator of your own, and of a motion that was judged.
   const Correspondence& correspondence() const { return m_parts.correspondence; }
 

@@ -31,7 +31,7 @@ function make_reports() {
   run(0, "simulate", "--output", "other", "--scans", "2", "--samples", "110", "--seed", "5");
   const [source, target] = [0, 1].map((i) => join("body", `scan_${i}.ply`)), other = join("other", "scan_1.ply");
   const answer = JSON.parse(run(0, "register", source, target, "--report", "pair.html", "--json"));
-  run(0, "simulate", "--output", "fine", "--scans", "4", "--samples", "200"); // whose meshes have trihedra
+  run(0, "simulate", "--output", "fine", "--scans", "4", "--samples", "260"); // fine enough for trihedra that fit
   run(0, "register", ...[0, 1].map((i) => join("fine", `scan_${i}.ply`)), "--method", "trihedra", "--report", "trihedra.html");
   const spacing = 2.5 / 130; // about: the body is as large, and the grid has so many columns
   writeFileSync(join(folder, "motion.txt"), answer.target_from_source.map((row) => [...row.slice(0, 3), row[3] + 2 * spacing].join(" ")).join("\n"));
