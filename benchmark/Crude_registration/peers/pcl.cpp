@@ -7,16 +7,13 @@
 
 #include "pcl.h"
 
-#include "../cpu_time.h"
 #include "pcl_points.h"
+#include "pcl_registration.h"
 
 #include <pcl/features/fpfh.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
-#include <pcl/registration/sample_consensus_prerejective.h>
 #include <pcl/search/kdtree.h>
-
-#include <cstdlib>
 
 namespace benchmark_tools {
 
@@ -24,6 +21,8 @@ namespace {
 
 struct Described
 {
+  using Feature = pcl::FPFHSignature33;
+
   Pcl_points::Ptr points{new Pcl_points};
   pcl::PointCloud<pcl::FPFHSignature33>::Ptr features{new pcl::PointCloud<pcl::FPFHSignature33>};
 
@@ -42,30 +41,7 @@ struct Described
 
 Peer_answer register_by_pcl(const Peer_scan& source, const Peer_scan& target, const Peer_setting& setting)
 {
-  std::srand(1);
-  const Pcl_points::Ptr source_points = to_pcl_points(source), target_points = to_pcl_points(target);
-
-  Peer_answer answer;
-  const double start = cpu_seconds();
-  const double voxel = setting.voxel * 0.5 * (source.diagonal + target.diagonal);
-  const Described a(source_points, source, voxel, setting), b(target_points, target, voxel, setting);
-  pcl::SampleConsensusPrerejective<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> align;
-  align.setInputSource(a.points);
-  align.setSourceFeatures(a.features);
-  align.setInputTarget(b.points);
-  align.setTargetFeatures(b.features);
-  align.setMaximumIterations(setting.iterations);
-  align.setNumberOfSamples(3);
-  align.setCorrespondenceRandomness(5);
-  align.setSimilarityThreshold(float(setting.edge_similarity));
-  align.setMaxCorrespondenceDistance(setting.distance * voxel);
-  align.setInlierFraction(float(setting.inlier_fraction));
-  pcl::PointCloud<pcl::PointNormal> aligned;
-  align.align(aligned);
-  answer.seconds = cpu_seconds() - start;
-  answer.is_found = align.hasConverged();
-  answer.set_motion(align.getFinalTransformation());
-  return answer;
+  return register_by_features<Described>(source, target, setting);
 }
 
 } // namespace benchmark_tools

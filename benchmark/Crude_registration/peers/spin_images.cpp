@@ -7,12 +7,11 @@
 
 #include "spin_images.h"
 
-#include "../cpu_time.h"
 #include "pcl_points.h"
+#include "pcl_registration.h"
 
 #include <pcl/common/io.h>
 #include <pcl/features/spin_image.h>
-#include <pcl/registration/sample_consensus_prerejective.h>
 // PCL's library does not have these templates for points with normals and for spin images.
 #include <pcl/features/impl/spin_image.hpp>
 #include <pcl/kdtree/impl/kdtree_flann.hpp>
@@ -22,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <set>
 
 // All bins are compared: of what PCL does not know it would compare the first three.
@@ -62,6 +60,8 @@ pcl::IndicesPtr chosen(const Pcl_points& points, double voxel)
 // Images of some points, made of many more.
 struct Described
 {
+  using Feature = Spin_image;
+
   Pcl_points::Ptr points{new Pcl_points};
   pcl::PointCloud<Spin_image>::Ptr features{new pcl::PointCloud<Spin_image>};
 
@@ -87,30 +87,7 @@ struct Described
 
 Peer_answer register_by_spin_images(const Peer_scan& source, const Peer_scan& target, const Peer_setting& setting)
 {
-  std::srand(1);
-  const Pcl_points::Ptr source_points = to_pcl_points(source), target_points = to_pcl_points(target);
-
-  Peer_answer answer;
-  const double start = cpu_seconds();
-  const double voxel = setting.voxel * 0.5 * (source.diagonal + target.diagonal);
-  const Described a(source_points, source, voxel, setting), b(target_points, target, voxel, setting);
-  pcl::SampleConsensusPrerejective<pcl::PointNormal, pcl::PointNormal, Spin_image> align;
-  align.setInputSource(a.points);
-  align.setSourceFeatures(a.features);
-  align.setInputTarget(b.points);
-  align.setTargetFeatures(b.features);
-  align.setMaximumIterations(setting.iterations);
-  align.setNumberOfSamples(3);
-  align.setCorrespondenceRandomness(5);
-  align.setSimilarityThreshold(float(setting.edge_similarity));
-  align.setMaxCorrespondenceDistance(setting.distance * voxel);
-  align.setInlierFraction(float(setting.inlier_fraction));
-  pcl::PointCloud<pcl::PointNormal> aligned;
-  align.align(aligned);
-  answer.seconds = cpu_seconds() - start;
-  answer.is_found = align.hasConverged();
-  answer.set_motion(align.getFinalTransformation());
-  return answer;
+  return register_by_features<Described>(source, target, setting);
 }
 
 } // namespace benchmark_tools
