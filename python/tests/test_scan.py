@@ -236,14 +236,15 @@ def with_checksum(data):
 def test_the_bytes_are_as_documented(scan):
     data = scan.to_bytes()
     assert data[:8] == b"CRScan\r\n"
-    assert int.from_bytes(data[8:12], "little") == 1
+    version = int.from_bytes(data[8:12], "little")
+    assert version == 2
     assert int.from_bytes(data[12:20], "little") == len(data) - 24
     assert data == with_checksum(data[:-4])
     assert data[20] == 1  # side
     rotation = np.frombuffer(data, "<f8", 9, 21).reshape(3, 3)
     assert np.allclose(rotation @ rotation.T, np.eye(3))
-    other = with_checksum(data[:8] + (2).to_bytes(4, "little") + data[12:-4])
-    with pytest.raises(ValueError, match="the format is 2, not 1"):
+    other = with_checksum(data[:8] + (version + 1).to_bytes(4, "little") + data[12:-4])
+    with pytest.raises(ValueError, match=f"the format is {version + 1}, not {version}"):
         cr.Scan.from_bytes(other)
 
 
