@@ -57,10 +57,11 @@ public:
 
   // Refines and weighs what a round of the search proposes: of the poses the best `number`, with no more than a few
   // from around each place. `are_estimated`: by whoever proposed them, best first; `tried` are then all that were.
-  // `correspondences` have given them, unless there are none. What the earlier rounds brought is weighed again, as each
+  // `correspondences` have given them, unless there are none. `dropped`: poses that were not worth a try, best first;
+  // they tell of chance where those that were are too few. What the earlier rounds brought is weighed again, as each
   // round tells more of chance. Nothing is added if the run is stopped.
   void add_round(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number, std::vector<Pose> tried,
-                 const std::vector<Correspondence>& correspondences = {})
+                 const std::vector<Correspondence>& correspondences = {}, const std::vector<Pose>& dropped = {})
   {
     std::vector<Estimated_pose> best;
     if (are_estimated)
@@ -73,7 +74,7 @@ public:
       if (!correspondences.empty()) poses[i].correspondence = correspondences[best[i].index];
     });
     if (m_control.is_stopped()) return;
-    add_candidates(tried);
+    add_candidates(tried, dropped);
     if (m_control.is_stopped()) return;
     const std::size_t old = m_judged.size();
     m_judged.insert(m_judged.end(), poses.begin(), poses.end());
@@ -86,6 +87,7 @@ public:
       if (i >= old) look(m_judged[i].pose, source, target);
       weigh(m_judged[i], source, target);
     });
+    refine_leaders(tried);
   }
 
   std::size_t number_of_judged() const { return m_judged.size(); }
@@ -162,6 +164,8 @@ public:
 
 private:
   static constexpr std::size_t evidence_probes = 1500; // of either scan
+  // Chance is known from so many distinct candidates, where there are as many: what the first round keeps.
+  static constexpr std::size_t fewest_candidates = 32;
 
   std::vector<Judged_pose> distinct_by(double Judged_pose::*key) const
   {
@@ -180,14 +184,61 @@ private:
     return distinct;
   }
 
-  // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose.
-  void add_candidates(const std::vector<Pose>& poses)
+  // Where planes slide along each other, refinement ends beside the best pose, and from elsewhere in another place: the
+  // leading poses that are in doubt are refined from each of the round's poses around them, too. The best one counts.
+  void refine_leaders(const std::vector<Pose>& tried)
+  {
+    constexpr std::size_t most_leaders = 2; // the best and its rival
+    const double doubt = std::log(certain / (1 - certain));
+    const float spacing = (std::max)(m_source.coarse.spacing, m_target.coarse.spacing);
+    std::vector<Judged_pose> leaders = distinct_by(&Judged_pose::log_odds);
+    if (leaders.size() > most_leaders) leaders.resize(most_leaders);
+    for (const Judged_pose& leader : leaders) {
+      if (!(std::abs(leader.log_odds) < doubt)) continue;
+      std::vector<Pose> starts;
+      for (const Pose& p : tried)
+        if (are_one(p, leader.pose, m_extent) &&
+            std::none_of(starts.begin(), starts.end(), [&](const Pose& q) { return are_close(p, q, spacing); }))
+          starts.push_back(p);
+      std::vector<Judged_pose> ends(starts.size(), leader);
+      for_each_index(m_execution, starts.size(), to_the_end(), [&](std::size_t i) {
+        const Judged_pose end = weighed(refined(starts[i]));
+        if (end.log_odds > leader.log_odds) ends[i] = with_proposal(end, leader);
+      });
+      const auto best = std::max_element(
+          ends.begin(), ends.end(), [](const Judged_pose& a, const Judged_pose& b) { return a.log_odds < b.log_odds; });
+      if (best != ends.end() && best->log_odds > leader.log_odds) add(*best);
+    }
+  }
+
+  static Judged_pose with_proposal(Judged_pose pose, const Judged_pose& of)
+  {
+    pose.proposed = of.proposed;
+    pose.correspondence = of.correspondence;
+    return pose;
+  }
+
+  void add(const Judged_pose& pose)
+  {
+    m_judged.push_back(pose);
+    m_judged_source_outcomes.resize(m_judged.size(), m_source_probes.size());
+    m_judged_target_outcomes.resize(m_judged.size(), m_target_probes.size());
+    look(pose.pose, m_judged_source_outcomes[m_judged.size() - 1], m_judged_target_outcomes[m_judged.size() - 1]);
+  }
+
+  // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose. Between
+  // planes nearly all of them crowd; others are then as good.
+  void add_candidates(const std::vector<Pose>& poses, const std::vector<Pose>& others)
   {
     const std::size_t old = m_candidates.size();
-    for (const Pose& p : poses)
+    const auto add = [&](const Pose& p) {
       if (std::none_of(m_candidates.begin(), m_candidates.end(),
                        [&](const Pose& q) { return are_one(p, q, m_extent); }))
         m_candidates.push_back(p);
+    };
+    for (const Pose& p : poses) add(p);
+    for (const Pose& p : others)
+      if (m_candidates.size() < fewest_candidates) add(p);
     m_source_outcomes.resize(m_candidates.size(), m_source_probes.size());
     m_target_outcomes.resize(m_candidates.size(), m_target_probes.size());
     m_usual_evidence.resize(m_candidates.size());

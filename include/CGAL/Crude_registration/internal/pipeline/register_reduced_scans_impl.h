@@ -88,7 +88,7 @@ void propose_and_judge(Candidate_source& candidates, Pose_judge& judge, Stage_re
     if (!candidates.next(control, proposals) || control.is_stopped()) return;
     const Stage_timer timer(stage);
     judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried),
-                    proposals.correspondences);
+                    proposals.correspondences, proposals.dropped);
     if (control.is_stopped()) return;
     stage.count = judge.number_of_judged();
     if (are_enough()) return;
