@@ -98,9 +98,9 @@ void search(std::size_t setting, const Scan& a, const Scan& b, const CRI::Rigid_
   CRI::Oriented_pair_search candidates(source, target, CRI::Oriented_pair_parameters(), CRI::Execution::SEQUENTIAL);
   CRI::Pose_judge judge(source, target, CRI::Execution::SEQUENTIAL, CRI::to_the_end(), coefficients);
   for (int round = 0;; ++round) {
-    CRI::Proposals proposals;
-    if (!candidates.next(CRI::to_the_end(), proposals)) return;
-    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
+    std::optional<CRI::Proposals> proposals = candidates.next(CRI::to_the_end());
+    if (!proposals) return;
+    judge.add_round(std::move(*proposals));
     function(pair, judge, round);
   }
 }

@@ -161,9 +161,7 @@ CR::internal::Pose_judge judge_of(const Input& in)
 CR::internal::Proposals proposals_of(const Input& in)
 {
   auto search = search_of(in);
-  CR::internal::Proposals proposals;
-  search.next(CR::internal::to_the_end(), proposals);
-  return proposals;
+  return *search.next(CR::internal::to_the_end());
 }
 
 void index_of_pairs(benchmark::State& state)
@@ -209,8 +207,7 @@ void search_round(benchmark::State& state)
   std::vector<CR::internal::Stage_record> stages;
   for (auto _ : state) {
     auto search = search_of(in);
-    CR::internal::Proposals proposals;
-    benchmark::DoNotOptimize(search.next(CR::internal::to_the_end(), proposals));
+    benchmark::DoNotOptimize(search.next(CR::internal::to_the_end()));
     stages = search.stages();
   }
   for (const CR::internal::Stage_record& s : stages) {
@@ -226,7 +223,7 @@ void judgement_of_round(benchmark::State& state)
   const CR::internal::Proposals proposals = proposals_of(in);
   for (auto _ : state) {
     auto judge = judge_of(in);
-    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, proposals.tried);
+    judge.add_round(proposals);
     benchmark::DoNotOptimize(judge.distinct_poses());
   }
   state.SetItemsProcessed(state.iterations() * std::int64_t(proposals.poses.size()));

@@ -40,6 +40,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <optional>
 #include <vector>
 
 namespace CR = CGAL::Crude_registration;
@@ -219,9 +220,9 @@ void write_candidates(std::ostream& out, const CR::Scan<Kernel>& source, const C
   const auto candidates = CR::Oriented_pair_candidates().candidates(s, t, CRI::Execution::SEQUENTIAL);
   CRI::Pose_judge judge(s, t, CRI::Execution::SEQUENTIAL, CRI::to_the_end());
   std::size_t tried = 0;
-  for (CRI::Proposals proposals; candidates->next(CRI::to_the_end(), proposals); proposals = CRI::Proposals()) {
-    tried += proposals.tried.size();
-    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
+  while (std::optional<CRI::Proposals> proposals = candidates->next(CRI::to_the_end())) {
+    tried += proposals->tried.size();
+    judge.add_round(std::move(*proposals));
   }
   std::vector<CRI::Judged_pose> poses = judge.distinct_poses();
   if (poses.empty()) throw std::runtime_error("nothing is proposed");

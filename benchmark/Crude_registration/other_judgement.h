@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <memory>
 #include <utility>
+#include <optional>
 #include <vector>
 
 namespace benchmark_tools {
@@ -64,10 +65,10 @@ Other_answer register_otherwise(const CRI::Reduced_scan& a, const CRI::Reduced_s
   std::vector<CRI::Pose> unrefined;
   std::vector<CRI::Judged_pose> poses;
   float most = -1; // of the shares
-  CRI::Proposals proposals;
-  while (candidates->next(CRI::to_the_end(), proposals)) {
+  while (const std::optional<CRI::Proposals> round = candidates->next(CRI::to_the_end())) {
+    const CRI::Proposals& proposals = *round;
     if (judgement == Judgement::EVIDENCE) {
-      judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
+      judge.add_round(proposals);
       poses = judge.distinct_poses();
     } else {
       std::vector<CRI::Pose> tried = proposals.tried;
@@ -90,7 +91,7 @@ Other_answer register_otherwise(const CRI::Reduced_scan& a, const CRI::Reduced_s
           poses = {pose};
         }
       } else {
-        judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried));
+        judge.add_round(proposals);
         for (const CRI::Estimated_pose& e : best) unrefined.push_back(proposals.poses[e.index]);
         poses.clear();
         for (const CRI::Pose& p : unrefined) {
@@ -101,7 +102,6 @@ Other_answer register_otherwise(const CRI::Reduced_scan& a, const CRI::Reduced_s
       }
     }
     if (judgement != Judgement::AREA && CRI::Pose_judge::is_certain(poses)) break;
-    proposals = CRI::Proposals();
   }
   Other_answer answer;
   if (poses.empty()) return answer;

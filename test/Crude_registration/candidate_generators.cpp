@@ -346,9 +346,8 @@ Pair_search search_by_pairs(const Scan& scan, double f1, double f2)
   CR::internal::Oriented_pair_search search(scan.reduced(), scan.reduced(), parameters,
                                             CR::internal::Execution::SEQUENTIAL);
   CR::internal::Run_control to_the_end;
-  CR::internal::Proposals proposals;
   std::size_t candidates = 0;
-  while (search.next(to_the_end, proposals)) candidates += proposals.poses.size();
+  while (const auto proposals = search.next(to_the_end)) candidates += proposals->poses.size();
   return {count(search, "propose: pairs"), candidates};
 }
 

@@ -57,6 +57,15 @@ Pose_judge judge_of(const Reduced_scan& source, const Reduced_scan& target)
   return Pose_judge(source, target, CR::internal::Execution::SEQUENTIAL, CR::internal::to_the_end());
 }
 
+// As of a search that has estimated nothing.
+CR::internal::Proposals proposals_of(const std::vector<Pose>& poses)
+{
+  CR::internal::Proposals proposals;
+  proposals.poses = poses;
+  proposals.judged = 8;
+  return proposals;
+}
+
 // The share of the probes of a scan, moved to the frame of a view, that are nearer to its sensor by `depth` than all
 // samples whose lines of sight pass within `reach` of them, and, where `surrounded` says so, all around: by all pairs.
 double share_before(const Reduced_scan& scan, const Rigid_motion& view_from_own, const View& view, double depth,
@@ -159,7 +168,7 @@ BOOST_AUTO_TEST_CASE(the_right_one_of_many_poses_is_most_probable)
   std::rotate(proposed.begin(), proposed.begin() + 7, proposed.end());
   Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
   BOOST_TEST(judge.distinct_poses().empty());
-  judge.add_round(proposed, false, 8, {});
+  judge.add_round(proposals_of(proposed));
   BOOST_TEST(judge.number_of_judged() <= 8u);
   const auto poses = judge.distinct_poses();
   BOOST_TEST_REQUIRE(!poses.empty());
@@ -179,10 +188,78 @@ BOOST_AUTO_TEST_CASE(the_right_one_of_many_poses_is_most_probable)
   BOOST_TEST(sum <= 1 + 1e-12);
   // What is known of chance changes with the next round, not what was judged.
   const std::size_t before = judge.number_of_judged();
-  judge.add_round({proposed.begin(), proposed.begin() + 3}, false, 8, {});
+  judge.add_round(proposals_of({proposed.begin(), proposed.begin() + 3}));
   BOOST_TEST(judge.number_of_judged() > before);
   BOOST_TEST(difference(CR::internal::to_rigid_motion(judge.distinct_poses().front().pose), wanted, middle) <
              2 * spacing);
+}
+
+BOOST_AUTO_TEST_CASE(chance_is_known_from_what_was_dropped_where_few_were_tried)
+{
+  const Rigid_motion wanted = own(true_motion(a(), b()));
+  CR::internal::Proposals few;
+  few.are_estimated = true;
+  few.judged = 2;
+  few.poses = {to_pose(wanted), to_pose(turned(wanted, 1, Vector::Zero()))};
+  few.tried = few.poses;
+  const auto number_known = [&](std::size_t dropped) {
+    CR::internal::Proposals proposals = few;
+    // Each of them twice.
+    for (std::size_t i = 0; i < 2 * dropped; ++i)
+      proposals.dropped.push_back(
+          to_pose(turned(wanted, 0, Vector(0.3 * a().scan.extent() * double(1 + i / 2), 0, 0))));
+    Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
+    judge.add_round(proposals);
+    BOOST_TEST(judge.number_of_judged() == 2u); // none of what was dropped
+    const std::vector<Pose>& known = judge.candidates();
+    for (std::size_t i = 0; i < known.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) BOOST_TEST(!judge.are_same(known[i], known[j]));
+    return known.size();
+  };
+  BOOST_TEST(number_known(0) == 2u);
+  BOOST_TEST(number_known(5) == 7u);
+  BOOST_TEST(number_known(100) == 32u);
+}
+
+BOOST_AUTO_TEST_CASE(a_pose_in_doubt_is_refined_from_all_around_it)
+{
+  const Rigid_motion wanted = own(true_motion(a(), b()));
+  const Reduced_scan &source = a().scan.reduced(), &target = b().scan.reduced();
+  // By the residual alone; all poses are in doubt, or all are certain.
+  const auto judge_by_residual = [&](double offset) {
+    CR::internal::Evidence_coefficients coefficients;
+    coefficients.slope = coefficients.lead = coefficients.violations = 0;
+    coefficients.residual = -1;
+    coefficients.offset = offset;
+    return Pose_judge(source, target, CR::internal::Execution::SEQUENTIAL, CR::internal::to_the_end(), coefficients);
+  };
+  CR::internal::Proposals proposals;
+  proposals.are_estimated = true;
+  proposals.judged = 1;
+  for (const double angle : {-0.13, 0., 0.13})
+    proposals.tried.push_back(to_pose(turned(wanted, angle, Vector::Zero())));
+  Pose_judge judge = judge_by_residual(0);
+  // The one that is proposed ends in the worst place.
+  proposals.poses = {proposals.tried.front()};
+  judge.add_round(proposals);
+  std::vector<double> ends;
+  for (const Pose& p : proposals.tried) {
+    BOOST_TEST(judge.are_same(p, judge.refined(p)));
+    ends.push_back(judge.weighed(judge.refined(p)).log_odds);
+  }
+  const auto worst = std::size_t(std::min_element(ends.begin(), ends.end()) - ends.begin());
+  const double greatest = *std::max_element(ends.begin(), ends.end());
+  BOOST_TEST(ends[worst] < greatest);
+  proposals.poses = {proposals.tried[worst]};
+  for (const double offset : {0., 20.}) {
+    Pose_judge again = judge_by_residual(offset);
+    again.add_round(proposals);
+    BOOST_TEST_REQUIRE(again.distinct_poses().size() == 1u);
+    const auto best = again.distinct_poses().front();
+    const double log_odds = best.log_odds - offset, wanted_odds = offset > 0 ? ends[worst] : greatest;
+    BOOST_TEST(std::abs(log_odds - wanted_odds) < 1e-12);
+    BOOST_TEST((best.proposed.rotation == proposals.poses.front().rotation));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_rival_is_the_best_candidate_elsewhere)
@@ -191,7 +268,9 @@ BOOST_AUTO_TEST_CASE(the_rival_is_the_best_candidate_elsewhere)
   std::vector<Pose> proposed;
   for (int i = 0; i < 12; ++i) proposed.push_back(to_pose(turned(wanted, 0.5 * i, Vector(0.02 * i, 0, 0))));
   Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
-  judge.add_round(proposed, false, 8, proposed);
+  CR::internal::Proposals proposals = proposals_of(proposed);
+  proposals.tried = proposed;
+  judge.add_round(proposals);
   BOOST_TEST_REQUIRE(judge.candidates().size() > 2u);
   const auto extent = float((std::min)(a().scan.reduced().extent, b().scan.reduced().extent));
   const CR::internal::Evidence_coefficients c;

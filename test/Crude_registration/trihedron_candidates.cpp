@@ -92,8 +92,7 @@ std::size_t count_of_first_round(const CR::Trihedron_candidates& generator, cons
 {
   const auto candidates = generator.candidates(source.reduced(), target.reduced(), CR::internal::Execution::SEQUENTIAL);
   CR::internal::Run_control to_the_end;
-  CR::internal::Proposals proposals;
-  BOOST_TEST(candidates->next(to_the_end, proposals));
+  BOOST_TEST(candidates->next(to_the_end).has_value());
   for (const auto& s : candidates->stages())
     if (s.name == name) return s.count;
   BOOST_ERROR("no stage " + name);

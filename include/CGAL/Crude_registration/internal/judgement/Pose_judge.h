@@ -14,10 +14,10 @@
 
 // The third step of a registration: proposed poses are refined, weighed by evidence, and told apart.
 
-#include <CGAL/Crude_registration/internal/base/Correspondence.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/judgement/Chance.h>
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
+#include <CGAL/Crude_registration/internal/judgement/Proposals.h>
 #include <CGAL/Crude_registration/internal/judgement/Verdict.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
@@ -55,26 +55,24 @@ public:
         m_tolerance(probe_tolerance(source.fine, target.fine, m_fine_look.free_depth))
   {}
 
-  // Refines and weighs what a round of the search proposes: of the poses the best `number`, with no more than a few
-  // from around each place. `are_estimated`: by whoever proposed them, best first; `tried` are then all that were.
-  // `correspondences` have given them, unless there are none. `dropped`: poses that were not worth a try, best first;
-  // they tell of chance where those that were are too few. What the earlier rounds brought is weighed again, as each
-  // round tells more of chance. Nothing is added if the run is stopped.
-  void add_round(const std::vector<Pose>& proposed, bool are_estimated, std::size_t number, std::vector<Pose> tried,
-                 const std::vector<Correspondence>& correspondences = {}, const std::vector<Pose>& dropped = {})
+  // Refines and weighs what a round of the search proposes: of the poses the best, as many as are worth it, with no
+  // more than a few from around each place. What the earlier rounds brought is weighed again, as each round tells more
+  // of chance. Nothing is added if the run is stopped.
+  void add_round(Proposals round)
   {
     std::vector<Estimated_pose> best;
-    if (are_estimated)
-      for (std::size_t i = 0; i < (std::min)(proposed.size(), number); ++i) best.push_back({proposed[i], 0, i});
-    else best = estimated_again(m_source, m_target, proposed, number, m_execution, m_control, tried);
+    if (round.are_estimated)
+      for (std::size_t i = 0; i < (std::min)(round.poses.size(), round.judged); ++i)
+        best.push_back({round.poses[i], 0, i});
+    else best = estimated_again(m_source, m_target, round.poses, round.judged, m_execution, m_control, round.tried);
     std::vector<Judged_pose> poses(best.size());
     for_each_index(m_execution, best.size(), m_control, [&](std::size_t i) {
       poses[i].pose = refined(best[i].pose);
-      poses[i].proposed = proposed[best[i].index];
-      if (!correspondences.empty()) poses[i].correspondence = correspondences[best[i].index];
+      poses[i].proposed = round.poses[best[i].index];
+      if (!round.correspondences.empty()) poses[i].correspondence = round.correspondences[best[i].index];
     });
     if (m_control.is_stopped()) return;
-    add_candidates(tried, dropped);
+    add_candidates(round);
     if (m_control.is_stopped()) return;
     const std::size_t old = m_judged.size();
     m_judged.insert(m_judged.end(), poses.begin(), poses.end());
@@ -87,7 +85,7 @@ public:
       if (i >= old) look(m_judged[i].pose, source, target);
       weigh(m_judged[i], source, target);
     });
-    refine_leaders(tried);
+    refine_leaders(round.tried);
   }
 
   std::size_t number_of_judged() const { return m_judged.size(); }
@@ -228,7 +226,7 @@ private:
 
   // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose. Between
   // planes nearly all of them crowd; others are then as good.
-  void add_candidates(const std::vector<Pose>& poses, const std::vector<Pose>& others)
+  void add_candidates(const Proposals& round)
   {
     const std::size_t old = m_candidates.size();
     const auto add = [&](const Pose& p) {
@@ -236,8 +234,8 @@ private:
                        [&](const Pose& q) { return are_one(p, q, m_extent); }))
         m_candidates.push_back(p);
     };
-    for (const Pose& p : poses) add(p);
-    for (const Pose& p : others)
+    for (const Pose& p : round.tried) add(p);
+    for (const Pose& p : round.dropped)
       if (m_candidates.size() < fewest_candidates) add(p);
     m_source_outcomes.resize(m_candidates.size(), m_source_probes.size());
     m_target_outcomes.resize(m_candidates.size(), m_target_probes.size());

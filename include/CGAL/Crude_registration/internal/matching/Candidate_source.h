@@ -14,16 +14,16 @@
 
 // The second step of a registration, to propose poses, as the pipeline sees it, whatever the method.
 
-#include <CGAL/Crude_registration/internal/base/Correspondence.h>
-#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
+#include <CGAL/Crude_registration/internal/judgement/Proposals.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,17 +56,6 @@ private:
   std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
 };
 
-// Poses that may be right, best first.
-struct Proposals
-{
-  std::vector<Pose> poses;
-  std::size_t judged = 0;     // so many of them, after refinement, are worth a close look
-  bool are_estimated = false; // from all of the surface that agrees under them, not from a few correspondences
-  std::vector<Pose> tried;    // where they are, all that were
-  std::vector<Pose> dropped;  // distinct ones that were not worth a try, best first
-  std::vector<Correspondence> correspondences; // that have given the poses, in the own frames; or none at all
-};
-
 // Proposes poses for two scans, round by round: a next round is asked for as long as nothing is certain.
 class Candidate_source
 {
@@ -76,8 +65,8 @@ public:
   Candidate_source& operator=(const Candidate_source&) = delete;
   virtual ~Candidate_source() = default;
 
-  // False where there are no more rounds. What is proposed when `control` has said to stop is of no use.
-  virtual bool next(Run_control& control, Proposals& proposals) = 0;
+  // Nothing where there are no more rounds. What is proposed when `control` has said to stop is of no use.
+  virtual std::optional<Proposals> next(Run_control& control) = 0;
 
   // The share of the work that is done before the next round, at most.
   virtual double progress() const { return 0; }

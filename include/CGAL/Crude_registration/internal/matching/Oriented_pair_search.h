@@ -30,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -96,9 +97,10 @@ public:
   }
 
   // The distinct candidates of the next round.
-  bool next(Run_control& control, Proposals& proposals) override
+  std::optional<Proposals> next(Run_control& control) override
   {
-    if (m_origins.empty() || m_next_round == m_parameters.rounds.size()) return false;
+    if (m_origins.empty() || m_next_round == m_parameters.rounds.size()) return std::nullopt;
+    Proposals proposals;
     const Oriented_pair_round& round = m_parameters.rounds[m_next_round++];
     ++m_rounds.count;
     const Stage_timer timer(m_rounds);
@@ -127,7 +129,7 @@ public:
     }
     proposals.are_estimated = true;
     proposals.judged = round.judged;
-    return true;
+    return proposals;
   }
 
   // The last round is most of the work.

@@ -23,6 +23,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,11 +46,12 @@ public:
   std::vector<Aff_transformation_3<Kernel>> operator()(const std::function<bool()>& go_on)
   {
     Run_control control([&](double) { return go_on(); }, (std::numeric_limits<double>::infinity)());
-    Proposals proposals;
-    m_is_done = !m_candidates->next(control, proposals);
+    const std::optional<Proposals> proposals = m_candidates->next(control);
+    m_is_done = !proposals;
     std::vector<Aff_transformation_3<Kernel>> motions;
+    if (!proposals) return motions;
     const Rigid_motion input_from_own = m_target->own_from_input.inverse();
-    for (const Pose& p : proposals.poses)
+    for (const Pose& p : proposals->poses)
       motions.push_back(to_aff_transformation<Kernel>(input_from_own * to_rigid_motion(p) * m_source->own_from_input));
     return motions;
   }

@@ -32,6 +32,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -91,23 +92,24 @@ public:
     for (const Vector& p : points) m_covariance += (p - m_mean) * (p - m_mean).transpose() / double(points.size());
   }
 
-  bool next(Run_control& control, Proposals& proposals) override
+  std::optional<Proposals> next(Run_control& control) override
   {
     const std::size_t passes = m_parameters.passes.size();
     while (m_next_pass < passes && m_spacing > m_parameters.passes[m_next_pass].spacing * m_s.extent) ++m_next_pass;
-    if (m_next_pass == passes || m_source_probes.empty() || m_target_probes.empty()) return false;
+    if (m_next_pass == passes || m_source_probes.empty() || m_target_probes.empty()) return std::nullopt;
     const Trihedron_pass& pass = m_parameters.passes[m_next_pass++];
     const Stage_timer timer(m_rounds);
     ++m_rounds.count;
     std::vector<Spatial_trihedron> trihedra = chosen(pass);
-    if (trihedra.empty()) return true;
+    Proposals proposals;
+    if (trihedra.empty()) return proposals;
     const std::vector<Crude_motion> crude = crude_motions(match(pass, trihedra, control), pass.distinct, control);
     for (const Crude_motion& c : crude) {
       proposals.poses.push_back(to_pose(c.motion));
       proposals.correspondences.push_back(correspondence(trihedra[std::size_t(c.candidate.trihedron)], c.candidate));
     }
     proposals.judged = judged;
-    return true;
+    return proposals;
   }
 
   double progress() const override { return double(m_next_pass) / double(m_parameters.passes.size()); }

@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,18 +36,19 @@ public:
       : m_rounds(std::move(rounds)), m_source(source), m_target(target)
   {}
 
-  bool next(Run_control& control, Proposals& proposals) override
+  std::optional<Proposals> next(Run_control& control) override
   {
-    if (m_rounds.is_done()) return false;
+    if (m_rounds.is_done()) return std::nullopt;
     const Stage_timer timer(m_stage);
     const auto motions = m_rounds([&control] { return control.go_on(); });
-    if (motions.empty() && m_rounds.is_done()) return false;
+    if (motions.empty() && m_rounds.is_done()) return std::nullopt;
     ++m_stage.count;
+    Proposals proposals;
     const Rigid_motion input_from_own = m_source.own_from_input.inverse();
     for (const auto& m : motions)
       proposals.poses.push_back(to_pose(m_target.own_from_input * to_rigid_motion(m) * input_from_own));
     proposals.judged = most_judged;
-    return true;
+    return proposals;
   }
 
   std::vector<Stage_record> stages() const override { return {m_stage}; }

@@ -29,6 +29,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,19 +77,18 @@ inline double overlap(const Reduced_scan& source, const Reduced_scan& target, co
   return n > 0 ? double(close) / double(n) : 0;
 }
 
-// Rounds of proposals, judged, until `are_enough` says of the judge that they are, or there are no more. False if the
-// run is stopped.
+// Rounds of proposals, judged, until `are_enough` says of the judge that they are, there are no more, or the run is
+// stopped.
 template <class Predicate>
 void propose_and_judge(Candidate_source& candidates, Pose_judge& judge, Stage_record& stage, Run_control& control,
                        const Predicate& are_enough)
 {
   for (;;) {
     control.advance(candidates.progress());
-    Proposals proposals;
-    if (!candidates.next(control, proposals) || control.is_stopped()) return;
+    std::optional<Proposals> proposals = candidates.next(control);
+    if (!proposals || control.is_stopped()) return;
     const Stage_timer timer(stage);
-    judge.add_round(proposals.poses, proposals.are_estimated, proposals.judged, std::move(proposals.tried),
-                    proposals.correspondences, proposals.dropped);
+    judge.add_round(std::move(*proposals));
     if (control.is_stopped()) return;
     stage.count = judge.number_of_judged();
     if (are_enough()) return;
