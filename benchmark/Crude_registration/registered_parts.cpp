@@ -61,7 +61,7 @@ struct Options
   std::size_t views = 2; // of each part
   double samples = 5000, noise = 0.1;
   std::string csv, part;
-  bool rows = false;
+  bool foreign = false, rows = false;
 };
 
 // All pieces as one surface.
@@ -293,7 +293,8 @@ void print(const std::string& title, const std::array<std::array<Counts, 4>, 3>&
 
 int run(const Options& options)
 {
-  std::array<std::array<Counts, 4>, 3> determined = {}, others = {};
+  std::array<std::array<Counts, 4>, 3> determined = {}, others = {}, foreign = {};
+  std::vector<Prepared> models_before;
   std::ostringstream csv;
   csv << "part,view,samples,symmetries,rival,rival_with_normals,input,model,outcome,confidence\n";
   std::uint64_t seed = 0;
@@ -329,13 +330,18 @@ int run(const Options& options)
               << ',' << outcome_names[answer.outcome] << ',' << answer.confidence << '\n';
           csv << row.str();
           if (options.rows) std::cout << row.str() << std::flush;
+          if (!options.foreign || models_before.empty()) continue;
+          const auto result = CR::register_scans(source.scan, models_before[m].scan);
+          ++foreign[i][m][result.status() == CR::REGISTERED ? WRONG : result.status() == CR::AMBIGUOUS ? LOST : NONE];
         }
       }
     }
+    models_before = std::move(models);
   }
   if (!options.csv.empty()) CR::write_file(options.csv, [&](std::ostream& out) { out << csv.str(); });
   print("The part has no symmetry, and the view determines the pose", determined);
   print("The others", others);
+  if (options.foreign) print("Views of a part with the models of the one before", foreign);
   std::cout
       << "right, wrong: registered, by 5 degrees, and 5 % of the diagonal at the centroid, up to symmetry; first: "
          "not\nregistered, and the right motion the most probable one; later: listed; lost: not listed; none: "
@@ -358,6 +364,8 @@ int main(int argc, char* argv[])
     description.add_options()("noise", po::value(&options.noise)->default_value(options.noise),
                               "standard deviation along the line of sight, in sampling distances");
     description.add_options()("part", po::value(&options.part), "the name of one, which alone is taken");
+    description.add_options()("foreign", po::bool_switch(&options.foreign),
+                              "try the views of each part with the models of the one before, too");
     description.add_options()("rows", po::bool_switch(&options.rows), "print each answer");
     description.add_options()("output", po::value(&options.csv), "file to write the answers to, as CSV");
     po::variables_map values;
