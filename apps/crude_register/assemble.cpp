@@ -146,19 +146,8 @@ Json to_json(const Result& result, const std::vector<std::string>& files, const 
                      {"covariance", s.covariance}});
     if (!s.lost_hint.empty()) scans.back()["lost_hint"] = s.lost_hint;
   }
-  Json& edges = json["edges"] = Json::array();
-  for (const auto& e : result.edges())
-    edges.push_back({{"source", e.source},
-                     {"target", e.target},
-                     {"status", word_of(e.status)},
-                     {"reason", e.reason},
-                     {"registration", word_of(e.registration)},
-                     {"confidence", e.confidence},
-                     {"overlap", e.overlap},
-                     {"residual", e.residual}});
-  Json& overlaps = json["overlaps"] = Json::array();
-  for (const auto& o : result.overlaps())
-    overlaps.push_back({{"source", o.source}, {"target", o.target}, {"overlap", o.overlap}, {"residual", o.residual}});
+  json["edges"] = rows_of_edges(result);
+  json["overlaps"] = rows_of_overlaps(result);
   Json& statistics = json["statistics"] = Json::array();
   for (const auto& stage : result.statistics()) {
     Json& entry = statistics.emplace_back(Json{{"stage", stage.name}, {"count", stage.count}});

@@ -11,6 +11,7 @@
 // The files that tell of an assembly: poses, graph, tables and points.
 
 #include "files.h"
+#include "json.h"
 #include "options.h"
 #include "surfaces.h"
 
@@ -42,6 +43,36 @@ inline std::vector<std::string> names_of(const std::vector<std::string>& files)
   for (const std::string& file : files) names.push_back(base_name(file));
   const std::set<std::string> distinct(names.begin(), names.end());
   return distinct.size() == names.size() ? names : files;
+}
+
+// The pairs that were registered, and what became of each: the member "edges" of an answer and of a report.
+inline Json rows_of_edges(const Assembly& result)
+{
+  const auto word_of = [](const auto& value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+  };
+  Json rows = Json::array();
+  for (const auto& e : result.edges())
+    rows.push_back({{"source", e.source},
+                    {"target", e.target},
+                    {"status", word_of(e.status)},
+                    {"reason", e.reason},
+                    {"registration", word_of(e.registration)},
+                    {"confidence", e.confidence},
+                    {"overlap", e.overlap},
+                    {"residual", e.residual}});
+  return rows;
+}
+
+// How the scans lie on each other: the member "overlaps" of both.
+inline Json rows_of_overlaps(const Assembly& result)
+{
+  Json rows = Json::array();
+  for (const auto& o : result.overlaps())
+    rows.push_back({{"source", o.source}, {"target", o.target}, {"overlap", o.overlap}, {"residual", o.residual}});
+  return rows;
 }
 
 // A line a scan, its name and the rows of its 3 x 4 matrix; a comment before each component.

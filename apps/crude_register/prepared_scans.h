@@ -15,16 +15,17 @@
 #include "progress.h"
 #include "surfaces.h"
 
-#include <CGAL/Crude_registration/IO/internal/Pair_store.h>
-#include <CGAL/Crude_registration/IO/internal/read_flat_scan.h>
+#include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/save_scan.h>
 #include <CGAL/Crude_registration/Scan.h>
 
-#include <algorithm>
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/uuid_io.hpp>
+
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 
@@ -33,26 +34,22 @@
 inline std::string hash_of_input(const po::variables_map& map, const std::string& file,
                                  const std::optional<Point>& viewpoint)
 {
-  CR::internal::Content_hash hash;
-  const auto add = [&](const std::string& text) {
-    hash.add(std::uint64_t(text.size()));
-    for (std::size_t i = 0; i < text.size(); i += sizeof(std::uint64_t)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, text.data() + i, (std::min)(sizeof word, text.size() - i));
-      hash.add(word);
-    }
-  };
+  std::string all;
+  const auto add = [&](const std::string& text) { all += std::to_string(text.size()) + ' ' + text; };
+  const auto add_number = [&](double x) { all.append(reinterpret_cast<const char*>(&x), sizeof x); };
   // FILE.ptx#2 is a scan of FILE.ptx.
   const std::size_t mark = std::filesystem::exists(file) ? std::string::npos : file.rfind('#');
-  add(CR::internal::read_file(file.substr(0, mark)));
+  const std::string name = file.substr(0, mark);
+  std::ifstream in(name, std::ios::binary);
+  if (!in) throw CR::IO_error(name, "the file cannot be opened");
+  add(std::string(std::istreambuf_iterator<char>(in), {}));
   add(mark == std::string::npos ? std::string() : file.substr(mark));
-  add(std::filesystem::path(file.substr(0, mark)).extension().string());
+  add(std::filesystem::path(name).extension().string());
   const CR::Depth_camera camera = camera_of(map, file);
-  for (const double x : {camera.fx, camera.fy, camera.cx, camera.cy, camera.scale}) hash.add(x);
-  hash.add(std::uint64_t(viewpoint.has_value()));
+  for (const double x : {camera.fx, camera.fy, camera.cx, camera.cy, camera.scale}) add_number(x);
   if (viewpoint)
-    for (int i = 0; i < 3; ++i) hash.add((*viewpoint)[i]);
-  return hash.text();
+    for (int i = 0; i < 3; ++i) add_number((*viewpoint)[i]);
+  return boost::uuids::to_string(boost::uuids::name_generator_sha1(boost::uuids::uuid())(all));
 }
 
 // Reads a scan and prepares it, or takes it from the folder, if one is given, where it was kept before.

@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,14 +88,6 @@ inline std::vector<Report_number> numbers_of(const Assembly& result, const std::
   return numbers;
 }
 
-template <class Value>
-std::string word_of(const Value& value)
-{
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 // What the points of a scan meet in the others of its component.
 inline std::vector<Other_scan> others_of(std::size_t scan, const Assembly& result,
                                          const std::vector<CR::Scan<Kernel>>& scans)
@@ -148,20 +139,8 @@ void write_assembly_report(const std::string& file, const Assembly& result, cons
     });
   }
   data["poses"] = {pose};
-  data["edges"] = Json::array();
-  for (const auto& e : result.edges())
-    data["edges"].push_back({{"source", e.source},
-                             {"target", e.target},
-                             {"status", word_of(e.status)},
-                             {"reason", e.reason},
-                             {"registration", word_of(e.registration)},
-                             {"confidence", e.confidence},
-                             {"overlap", e.overlap},
-                             {"residual", e.residual}});
-  data["overlaps"] = Json::array();
-  for (const auto& o : result.overlaps())
-    data["overlaps"].push_back(
-        {{"source", o.source}, {"target", o.target}, {"overlap", o.overlap}, {"residual", o.residual}});
+  data["edges"] = rows_of_edges(result);
+  data["overlaps"] = rows_of_overlaps(result);
 
   const std::string pictures = static_pictures([&](bool is_after) {
     std::vector<Surface> surfaces;

@@ -17,7 +17,6 @@
 // Both scans are thinned to one point a cell; lengths are in cells.
 
 #include "bunny_pairs.h"
-#include "command_line.h"
 #include "cpu_time.h"
 #include "rival_trials.h"
 
@@ -33,9 +32,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <exception>
-#include <iostream>
 #include <map>
 #include <random>
 #include <stdexcept>
@@ -55,7 +51,6 @@ using Motion = Eigen::Isometry3d;
 
 struct Options
 {
-  std::string folder = ".";
   double points = 1000;                  // about, of a scan that is thinned
   double tolerance = 0.7;                // in cells
   double shortest = 0.15, longest = 0.3; // sides of a triangle, in shares of the mean extent M
@@ -262,11 +257,13 @@ Rival_answer register_by_darces(const bunny::Dense_scan& source, const bunny::De
   return answer;
 }
 
-int run(const Options& options)
+void run(const std::string& folder, const Options& options)
 {
+  if (!(options.points >= 10 && options.tolerance > 0 && options.shortest > 0 && options.shortest < options.longest))
+    throw std::invalid_argument("--points has to be 10 or more, the others above zero, --shortest below --longest");
   std::size_t right = 0;
   const double reference = benchmark_tools::for_each_of_the_papers_pairs(
-      options.folder,
+      folder,
       [&](const bunny::Dense_scan& source, const bunny::Dense_scan& target, const auto& truth, const auto& print) {
         for (std::size_t k = 0; k < options.runs; ++k) {
           std::mt19937_64 random(k + 1);
@@ -275,26 +272,15 @@ int run(const Options& options)
           print("DARCES, seed " + std::to_string(k + 1), answer);
         }
       });
-  std::cout << "\nDARCES is right in " << right << " of " << 4 * options.runs
-            << " runs; right: after ICP within 5 degrees, and the centroid within 5 % of\nthe diagonal; R = "
-            << reference << " s\n";
-  return EXIT_SUCCESS;
+  benchmark_tools::print_summary("DARCES is right in ", right, std::to_string(4 * options.runs) + " runs", reference);
 }
 
 } // namespace
 
 int main(int argc, char* argv[])
 {
-  try {
-    Options options;
-    po::options_description description(
-        "Usage: rival_darces [OPTION...]\n\n"
-        "Registers the paper's four pairs of bunny scans by DARCES, whose triangles are\n"
-        "of points without description, and by this package.\n\n"
-        "Options");
-    description.add_options()("help,h", "print this");
-    description.add_options()("scans", po::value(&options.folder),
-                              "folder of bun000.ply, ... and bun.conf; default: this one");
+  Options options;
+  const auto add_options = [&](po::options_description& description) {
     description.add_options()("points", po::value(&options.points)->default_value(options.points),
                               "points that the source is thinned to, about; the target is as dense");
     description.add_options()("triangles", po::value(&options.triangles)->default_value(options.triangles),
@@ -306,13 +292,8 @@ int main(int argc, char* argv[])
                               "shortest side of a triangle, in shares of M");
     description.add_options()("longest", po::value(&options.longest)->default_value(options.longest),
                               "longest side of a triangle");
-    po::variables_map values;
-    if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
-    if (!(options.points >= 10 && options.tolerance > 0 && options.shortest > 0 && options.shortest < options.longest))
-      throw std::invalid_argument("--points has to be 10 or more, the others above zero, --shortest below --longest");
-    return run(options);
-  } catch (const std::exception& e) {
-    std::cerr << "rival_darces: " << e.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  };
+  return benchmark_tools::rival_program(
+      argc, argv, "rival_darces", "DARCES, whose triangles are\nof points without description, and by this package.",
+      add_options, [&](const std::string& folder) { run(folder, options); });
 }

@@ -12,7 +12,6 @@
 // the normals to be right: they are turned to the known sensor.
 
 #include "bunny_pairs.h"
-#include "command_line.h"
 #include "peers/spin_images.h"
 #include "rival_trials.h"
 
@@ -23,9 +22,6 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <cstdlib>
-#include <exception>
-#include <iostream>
 #include <string>
 
 namespace po = boost::program_options;
@@ -34,12 +30,6 @@ using benchmark_tools::Peer_setting;
 using benchmark_tools::Rival_answer;
 
 namespace {
-
-struct Options
-{
-  std::string folder = ".";
-  Peer_setting setting = benchmark_tools::spin_image_setting();
-};
 
 Peer_scan to_peer_scan(const bunny::Dense_scan& scan)
 {
@@ -73,36 +63,25 @@ Rival_answer register_by_spin_images(const bunny::Dense_scan& source, const bunn
   return answer;
 }
 
-int run(const Options& options)
+void run(const std::string& folder, const Peer_setting& setting)
 {
   std::size_t right = 0;
   const double reference = benchmark_tools::for_each_of_the_papers_pairs(
-      options.folder, [&](const bunny::Dense_scan& source, const bunny::Dense_scan& target,
-                          const bunny::Transformation& truth, const auto& print) {
-        const Rival_answer answer = register_by_spin_images(source, target, truth, options.setting);
+      folder, [&](const bunny::Dense_scan& source, const bunny::Dense_scan& target, const bunny::Transformation& truth,
+                  const auto& print) {
+        const Rival_answer answer = register_by_spin_images(source, target, truth, setting);
         right += answer.is_right;
         print("spin images", answer);
       });
-  std::cout << "\nspin images are right on " << right
-            << " of 4 pairs; right: after ICP within 5 degrees, and the centroid within 5 % of\nthe diagonal; R = "
-            << reference << " s\n";
-  return EXIT_SUCCESS;
+  benchmark_tools::print_summary("spin images are right on ", right, "4 pairs", reference);
 }
 
 } // namespace
 
 int main(int argc, char* argv[])
 {
-  try {
-    Options options;
-    Peer_setting& s = options.setting;
-    po::options_description description("Usage: rival_spin_images [OPTION...]\n\n"
-                                        "Registers the paper's four pairs of bunny scans by PCL's spin images and its\n"
-                                        "RANSAC with prerejection, and by this package.\n\n"
-                                        "Options");
-    description.add_options()("help,h", "print this");
-    description.add_options()("scans", po::value(&options.folder),
-                              "folder of bun000.ply, ... and bun.conf; default: this one");
+  Peer_setting s = benchmark_tools::spin_image_setting();
+  const auto add_options = [&](po::options_description& description) {
     description.add_options()("voxel", po::value(&s.voxel)->default_value(s.voxel),
                               "that leaves one point, in shares of the diagonal of the scan");
     description.add_options()("radius", po::value(&s.feature_radius)->default_value(s.feature_radius),
@@ -110,11 +89,8 @@ int main(int argc, char* argv[])
     description.add_options()("similarity", po::value(&s.edge_similarity)->default_value(s.edge_similarity),
                               "of the sides of triangles that correspond");
     description.add_options()("iterations", po::value(&s.iterations)->default_value(s.iterations), "of the RANSAC");
-    po::variables_map values;
-    if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
-    return run(options);
-  } catch (const std::exception& e) {
-    std::cerr << "rival_spin_images: " << e.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  };
+  return benchmark_tools::rival_program(argc, argv, "rival_spin_images",
+                                        "PCL's spin images and its\nRANSAC with prerejection, and by this package.",
+                                        add_options, [&](const std::string& folder) { run(folder, s); });
 }

@@ -11,6 +11,7 @@
 // The four pairs of bunny scans of the paper, on which its rivals are tried beside its method.
 
 #include "bunny_pairs.h"
+#include "command_line.h"
 #include "cpu_time.h"
 #include "reference_time.h"
 
@@ -19,9 +20,13 @@
 #include <CGAL/bounding_box.h>
 #include <CGAL/centroid.h>
 
+#include <boost/program_options.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <exception>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -111,6 +116,39 @@ double for_each_of_the_papers_pairs(const std::string& folder, const Function& t
     print_one("oriented pairs", register_by_package(source, target, truth, CR::Oriented_pair_candidates()));
   }
   return reference;
+}
+
+// The last lines of a rival's output: of how many `trials` (with their noun) it is right, by the criterion of
+// is_right().
+inline void print_summary(const std::string& rival, std::size_t right, const std::string& trials, double reference)
+{
+  std::cout << '\n'
+            << rival << right << " of " << trials
+            << "; right: after ICP within 5 degrees, and the centroid within 5 % of\nthe diagonal; R = " << reference
+            << " s\n";
+}
+
+// The main function of a rival: reads the folder of the scans and the options that add_options(description) adds, and
+// calls run(folder). `by`: what the pairs are registered by.
+template <class Add, class Run>
+int rival_program(int argc, char* argv[], const std::string& name, const std::string& by, const Add& add_options,
+                  const Run& run)
+{
+  namespace po = boost::program_options;
+  try {
+    std::string folder = ".";
+    po::options_description description(
+        "Usage: " + name + " [OPTION...]\n\nRegisters the paper's four pairs of bunny scans by " + by + "\n\nOptions");
+    description.add_options()("help,h", "print this");
+    description.add_options()("scans", po::value(&folder), "folder of bun000.ply, ... and bun.conf; default: this one");
+    add_options(description);
+    po::variables_map values;
+    if (read_options(argc, argv, description, values)) run(folder);
+    return EXIT_SUCCESS;
+  } catch (const std::exception& e) {
+    std::cerr << name << ": " << e.what() << '\n';
+    return EXIT_FAILURE;
+  }
 }
 
 } // namespace benchmark_tools

@@ -13,9 +13,6 @@
 
 namespace {
 
-// Of an array whose elements follow each other and lie where the processor reads them, or a copy that is so.
-constexpr int plain = py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
-
 std::string text_of(const py::handle& object)
 {
   return py::str(object).cast<std::string>();

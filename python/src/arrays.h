@@ -20,6 +20,9 @@
 #include <string>
 #include <vector>
 
+// Of an array whose elements follow each other and lie where the processor reads them, or a copy that is so.
+constexpr int plain = py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+
 // What numpy makes of an object, if that is an array of numbers of the kinds, 'f' for floats of 32 or 64 bits, 'i' for
 // integers. `argument`: how errors call it. \throws py::type_error
 py::array to_array(const py::handle& object, const std::string& argument, const std::string& kinds);

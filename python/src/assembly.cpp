@@ -41,7 +41,7 @@ std::string text_of(const Value& value)
   return text.str();
 }
 
-std::string to_text(const CRI::Pair_answer& answer)
+std::string text_of_pair(const CRI::Pair_answer& answer)
 {
   std::ostringstream text;
   CRI::Pair_store::write(text, answer);
@@ -70,7 +70,7 @@ std::optional<std::string> stored_pair(const std::string& store, const std::stri
   py::gil_scoped_release unlocked;
   const std::optional<CRI::Pair_answer> answer = CRI::Pair_store::read(file);
   if (!answer) return std::nullopt;
-  return to_text(*answer);
+  return text_of_pair(*answer);
 }
 
 std::string register_pair(const Scan& source, const Scan& target, const std::optional<std::string>& store)
@@ -81,7 +81,7 @@ std::string register_pair(const Scan& source, const Scan& target, const std::opt
       CRI::to_pair_answer(CR::register_scans<CGAL::Sequential_tag>(source, target, p::visitor(std::ref(interruption))));
   if (store)
     CRI::Pair_store::write(CRI::Pair_store(*store).file(CRI::content_hash(source), CRI::content_hash(target)), answer);
-  return to_text(answer);
+  return text_of_pair(answer);
 }
 
 // The pairs of each round are given to a function of Python, with one that says whether the run is to go on: a list of

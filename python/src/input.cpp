@@ -36,7 +36,6 @@ Polygons to_polygons(const py::handle& object, std::size_t n, const std::string&
   const py::array array = to_array(object, argument, "i");
   if (array.size() > 0 && (array.ndim() != 2 || array.shape(1) != 3))
     throw py::value_error(argument + ": an array of shape (m, 3) is needed, not " + shape_of(array));
-  constexpr int plain = py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
   const auto indices = py::array_t<std::int64_t, plain>::ensure(array);
   if (!indices) throw py::error_already_set();
   Polygons polygons;

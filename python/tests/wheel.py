@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds a wheel by pip, of a copy of the sources, installs it into a new virtual environment, and runs an example there:
-wheel.py SOURCES FOLDER. Nothing is fetched: scikit-build, pybind11 and numpy are those that are installed."""
+wheel.py SOURCES FOLDER [CORE], where CORE is the compiled core, which is compiled, too, if it is not given. Nothing is
+fetched: scikit-build, pybind11 and numpy are those that are installed."""
 
 import os
 import pathlib
@@ -22,8 +23,13 @@ for part in parts:
 subprocess.run(
     [sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "-w", folder, copy],
     check=True,
-    # Whether it can be built, and not how fast it is: in half the time.
-    env={**os.environ, "CMAKE_ARGS": "-DCMAKE_CXX_FLAGS_RELEASE=-O0"},
+    # Whether it can be built, and not how fast it is.
+    env={**os.environ, "CMAKE_ARGS": " ".join((
+        "-DCMAKE_CXX_FLAGS_RELEASE=-O0",
+        "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0",
+        "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON",
+        *(f"-DCRUDE_REGISTRATION_CORE={core}" for core in sys.argv[3:]),
+    ))},
 )
 (wheel,) = folder.glob("crude_registration-*.whl")
 venv.create(folder / "venv", system_site_packages=True, with_pip=True)

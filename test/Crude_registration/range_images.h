@@ -184,10 +184,12 @@ public:
 
   const std::filesystem::path& path() const { return m_path; }
 
-  // writes a file and returns its name
+  // writes a file and returns its name. (Some file systems wait for the disk where a file is written in the place of
+  // another one.)
   std::string file(const std::string& name, const std::string& contents) const
   {
     const std::string path = (m_path / name).string();
+    std::filesystem::remove(path);
     std::ofstream(path, std::ios::binary) << contents;
     return path;
   }

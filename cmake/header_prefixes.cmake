@@ -1,0 +1,58 @@
+# For each header of the package, what it may be compiled after and is still as good as alone:
+# cmake -D include_dir=DIR -D output_dir=DIR -D prefixes=NAME|NAME... -P header_prefixes.cmake
+#
+# OUTPUT_DIR/NAME.h is a prefix: includes of other libraries, compiled once to OUTPUT_DIR/NAME.pch. A header that includes
+# all of them, itself or by headers of the package, sees the same names with the prefix before it as alone, as soon as its
+# own includes are over; if this is so for each header, then none of them takes a name from a header before it. The first
+# prefix, of the largest to the smallest, whose includes are all among a header's is written as the compiler's option to
+# OUTPUT_DIR/HEADER.options, which is empty if there is none.
+cmake_minimum_required(VERSION 3.22)
+
+function(includes_of file result)
+  file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include <")
+  set(names "")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE ".*<(.*)>.*" "\\1" name "${line}")
+    list(APPEND names ${name})
+  endforeach()
+  set(${result} ${names} PARENT_SCOPE)
+endfunction()
+
+# all_includes(HEADER RESULT): of the header and of what it includes of the package
+function(all_includes header result)
+  get_property(is_known GLOBAL PROPERTY "all_${header}" SET)
+  if(NOT is_known)
+    set_property(GLOBAL PROPERTY "all_${header}" "")
+    includes_of(${include_dir}/${header} all)
+    foreach(name IN LISTS all)
+      if(EXISTS ${include_dir}/${name})
+        all_includes(${name} more)
+        list(APPEND all ${more})
+      endif()
+    endforeach()
+    list(REMOVE_DUPLICATES all)
+    set_property(GLOBAL PROPERTY "all_${header}" "${all}")
+  endif()
+  get_property(all GLOBAL PROPERTY "all_${header}")
+  set(${result} ${all} PARENT_SCOPE)
+endfunction()
+
+string(REPLACE "|" ";" prefixes "${prefixes}")
+foreach(prefix IN LISTS prefixes)
+  includes_of(${output_dir}/${prefix}.h includes_${prefix})
+endforeach()
+file(GLOB_RECURSE headers RELATIVE ${include_dir} ${include_dir}/*.h)
+foreach(header IN LISTS headers)
+  all_includes(${header} all)
+  set(option "")
+  foreach(prefix IN LISTS prefixes)
+    set(missing ${includes_${prefix}})
+    list(REMOVE_ITEM missing ${all})
+    if(NOT missing)
+      set(option "-include-pch ${output_dir}/${prefix}.pch\n")
+      break()
+    endif()
+  endforeach()
+  string(MAKE_C_IDENTIFIER ${header} name)
+  file(CONFIGURE OUTPUT ${output_dir}/${name}.options CONTENT "${option}")
+endforeach()
