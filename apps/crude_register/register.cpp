@@ -8,6 +8,7 @@
 // register: finds the motion that maps one scan onto another.
 
 #include "apply.h"
+#include "colours.h"
 #include "commands.h"
 #include "files.h"
 #include "json.h"
@@ -225,16 +226,18 @@ std::vector<Point> vertices_of(const Side& side, const Surface& shown)
   return std::vector<Point>(mesh.points().begin(), mesh.points().end());
 }
 
-// A surface as it is written: as the file has it if it is a mesh, else triangulated, moved.
+// A surface as it is written: as the file has it if it is a mesh, else triangulated, moved; with the colours of the
+// file.
 void write_surface(const std::string& file, const Side& side, const Surface& shown, const Transformation& motion)
 {
   if (side.contents.kind == Scan_file::RANGE_IMAGE) {
     std::vector<Point> points;
     points.reserve(shown.points.size());
     for (const Point& p : shown.points) points.push_back(p.transform(motion));
-    write_triangles(file, points, shown.triangles);
+    write_triangles(file, points, shown.triangles, colours_at(shown.points, side.contents));
   } else {
     Mesh mesh = mesh_of(side.contents, side.viewpoint);
+    add_colours(side.contents, mesh);
     CGAL::Polygon_mesh_processing::transform(motion, mesh);
     write_mesh(file, mesh);
   }
@@ -343,7 +346,7 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
       "and no longer than this share, about the least share of the scan that overlaps; 0.3 if not given");
   add("output", po::value<std::string>(),
       "folder for source_moved.ply, target.ply and motion.txt (the 4 x 4 matrix); "
-      "made if missing, written unless the scans are not registered");
+      "made if missing, written unless the scans are not registered; with the colours of the scans");
   add("apply", po::value<std::string>(), apply_help);
   add("picture", po::value<std::string>(),
       "file (PNG) for a picture of both scans as they were registered, the source orange and the target blue; side by "
