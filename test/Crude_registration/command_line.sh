@@ -370,6 +370,17 @@ awk 'NR == FNR { for (j = 1; j <= 3; ++j) a[FNR, j] = $j; n = FNR; next }
     if (t < 1e6 * s * 0.9999 || t > 1e6 * s * 1.0001) exit 1 }
   FNR == 1 { for (j = 1; j <= 3; ++j) p0[j] = $j }' metres_0.xyz millimetres_0.xyz ||
   fail "--apply does not write the unit of the target"
+# The same without a word of the units: the factor is found, and told; what is applied is scaled by it.
+expect 0 register metres_0.xyz points_1.xyz --source-viewpoint "$metres_sensor" --target-viewpoint "$target_sensor" \
+  --estimate-scale --apply estimated_0.xyz --output estimated --report estimated.html
+grep -q "^scale:      \(1000\|999\.[5-9][0-9]*\|1000\.[0-4][0-9]*\), estimated: " out.txt || fail "no scale of 1000: $(cat out.txt)"
+paste millimetres_0.xyz estimated_0.xyz | awk '{ for (j = 1; j <= 3; ++j) if (($j - $(j + 3)) ^ 2 > 4e-4) exit 1 }' ||
+  fail "--apply does not write the estimated scale"
+expect 0 register $pair --estimate-scale --json
+holds /estimated_scale 1.0
+expect 0 register $pair --json
+grep -q estimated_scale out.txt && fail "a scale is told of that was not estimated"
+rejects "--estimate-scale" register $pair --estimate-scale --source-unit m --target-unit mm
 rejects "--source-unit" register $pair --source-unit yard --target-unit m
 rejects "given together" register $pair --source-unit m
 rejects "--camera" register a.png b.png --camera 1,2,3

@@ -55,6 +55,8 @@ def main():
         registered,
         answer(0, "register", *pair, "--json", "--times", "--poses", "scans/poses.txt", "--output", "moved", "--apply", "moved.ply"),
         answer(3, "register", *others, "--json"),
+        answer(0, "register", *pair, "--estimate-scale", "--json"),
+        answer(3, "register", *others, "--estimate-scale", "--json"),
         answer(3, "register", *pair, "--json", "--time-budget", "1e-9"),
         answer(2, "register", *planes, "--json"),
         answer(0, "judge", *pair, "--motion", "answer.json", "--json"),
