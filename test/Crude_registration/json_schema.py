@@ -71,7 +71,8 @@ def main():
         assert not errors, (a["command"], errors)
         assert validator.is_valid(a), a["command"]
         # each member counts, and no other is allowed
-        optional = {"error", "preparation_seconds", "search_seconds", "columns", "rows", "normals_towards_sensor"}
+        optional = {"error", "preparation_seconds", "search_seconds", "columns", "rows", "normals_towards_sensor",
+                    "estimated_scale", "estimated_scale_deviation"}
         for member in set(a) - optional:
             less = copy.deepcopy(a)
             del less[member]

@@ -203,12 +203,11 @@ inline Verdict verdict_of(const std::vector<Scaled_outcome>& outcomes, const Sca
   verdict.confidence = weighed(verdict.confidence);
   if (verdict.status == NOT_REGISTERED) return verdict;
   const Similarity_refinement& r = best.refinement;
-  const double least_free = std::sqrt(0.5) * r.sampling_distance; // see Similarity_refiner
   if (weighed(probability_of_any(best.poses)) < plausible) {
     verdict.status = NOT_REGISTERED;
     verdict.free_motions.clear();
     verdict.reason = "no overlap found at any scale that cannot be by chance";
-  } else if (r.deviation * r.radius > least_free) {
+  } else if (r.deviation * r.radius > r.sampling_distance) {
     verdict.status = AMBIGUOUS;
     verdict.confidence = (std::min)(verdict.confidence, 0.5);
     verdict.free_motions.push_back("a change of scale");

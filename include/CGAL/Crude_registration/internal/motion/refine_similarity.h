@@ -74,6 +74,9 @@ public:
   }
 
 private:
+  using Matrix_7 = Eigen::Matrix<double, 7, 7>;
+  using Vector_7 = Eigen::Matrix<double, 7, 1>;
+
   static constexpr std::size_t fewest_matches = 50;
   // Those of Point_to_plane: normals within 45 degrees, 95 % efficiency, and what counts as no residual.
   static constexpr double smallest_normal_cosine = 0.70710678118654752, biweight_reach = 4.685, smallest_sigma = 1e-3;
@@ -139,14 +142,11 @@ private:
       left += weights[i] * row * row.transpose();
       right += weights[i] * m.height * row;
     }
-    // What the matches leave free stays: as if each unknown were known to be 0 to within the sampling distance s,
-    // before. By that its deviation is s at most, and s / sqrt(2) where the matches know as much of it as was known
-    // before.
     const double variance = (std::max)(squares / total, smallest_sigma * smallest_sigma * m_s * m_s);
+    r.deviation = deviation_of_scale(left, variance) / r.radius;
+    // What the matches leave free stays: as if each unknown were known to be 0 to within s beforehand.
     left.diagonal().array() += variance / (m_s * m_s);
-    const Eigen::LDLT<Matrix_7> solver(left);
-    const Vector_7 x = solver.solve(right);
-    r.deviation = std::sqrt(variance * solver.solve(Vector_7::Unit(6))[6]) / r.radius;
+    const Vector_7 x = Eigen::LDLT<Matrix_7>(left).solve(right);
     constexpr double largest_growth = 0.1; // a step; what asks for more is no overlap
     const double growth = 1 + (std::min)((std::max)(x[6] / r.radius, -largest_growth), largest_growth);
     const Vector turn = x.head<3>() / r.radius, shift = x.segment<3>(3);
@@ -159,8 +159,15 @@ private:
     return x.norm();
   }
 
-  using Matrix_7 = Eigen::Matrix<double, 7, 7>;
-  using Vector_7 = Eigen::Matrix<double, 7, 1>;
+  // Whatever the residuals are, a surfel, which is the mean of a cell, is off the surface by about so much of s.
+  double deviation_of_scale(Matrix_7 left, double variance) const
+  {
+    constexpr double error_of_surfel = 0.1;
+    const double rounding = 1e-12 * left.trace(); // what is free altogether deviates much, but not by infinity
+    left.diagonal().array() += rounding;
+    const double inverse = Eigen::LDLT<Matrix_7>(left).solve(Vector_7::Unit(6))[6];
+    return (std::max)(std::sqrt(variance), error_of_surfel * m_s) * std::sqrt((std::max)(inverse, 0.));
+  }
 
   const std::vector<Surfel>& m_surfels;
   const std::vector<std::int32_t>& m_probes;
