@@ -54,25 +54,27 @@ void check_right(const Scaled& result, double scale, const View& source, const V
   BOOST_TEST(farthest < 0.01 * source.scan.extent() + 2 * target.scan.spacing());
 }
 
-// Three squares that meet in a corner, of so many cells of edge 1 a side, with some roughness.
+// Three rectangles that meet in a corner, of cells of edge 1, n at the longest edge, with some roughness.
 Mesh corner(int n)
 {
   Mesh mesh;
   std::mt19937 random{std::mt19937::result_type(n)};
   const auto roughness = [&] { return 0.2 * double(random()) / double(std::mt19937::max()); };
+  const std::array<int, 3> sizes = {n, 2 * n / 3, n / 2};
   for (int axis = 0; axis < 3; ++axis) {
+    const int rows = sizes[std::size_t(axis + 1) % 3], columns = sizes[std::size_t(axis + 2) % 3];
     std::vector<Mesh::Vertex_index> v;
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= rows; ++i)
+      for (int j = 0; j <= columns; ++j) {
         std::array<double, 3> c{};
         c[std::size_t(axis)] = roughness();
         c[std::size_t(axis + 1) % 3] = i;
         c[std::size_t(axis + 2) % 3] = j;
         v.push_back(mesh.add_vertex(Point(c[0], c[1], c[2])));
       }
-    const auto at = [&](int i, int j) { return v[std::size_t(i * (n + 1) + j)]; };
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
+    const auto at = [&](int i, int j) { return v[std::size_t(i * (columns + 1) + j)]; };
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < columns; ++j) {
         mesh.add_face(at(i, j), at(i + 1, j), at(i + 1, j + 1));
         mesh.add_face(at(i, j), at(i + 1, j + 1), at(i, j + 1));
       }

@@ -125,6 +125,21 @@ struct Scaled_outcome : Registration_outcome
   Similarity_refinement refinement;
 };
 
+// Whether the surfaces agree as well when the source is larger, and when it is smaller, by so much that matches are
+// moved by two sampling distances: as planes do. (Edges and borders, of which there are few, count for little then.)
+inline bool is_scale_free(Similarity_refiner& refiner, const Rigid_motion& initial, const Similarity_refinement& best)
+{
+  constexpr double displacement = 2, fewest_matches = 0.9, largest_growth = 1.25, rounding = 0.02;
+  const double s = best.sampling_distance, change = displacement * s / best.radius;
+  for (const double scale : {best.scale * (1 + change), best.scale / (1 + change)}) {
+    const Similarity_refinement other = refiner.at_scale(initial, scale);
+    if (double(other.matches) < fewest_matches * double(best.matches) ||
+        other.median > largest_growth * best.median + rounding * s)
+      return false;
+  }
+  return true;
+}
+
 // `motion`: of the source at its scale, in the frames of the inputs. Of the sides that a scan may have, the ones that
 // match are taken.
 template <class Kernel>
@@ -138,10 +153,12 @@ Similarity_refinement refined_similarity(const Scan<Kernel>& source, const Scan<
       const Reduced_scan &a = s->reduced(), &b = t->reduced();
       const Nearest_surfel surface{b.fine.surfels, b.fine.field, double(b.fine.spacing)};
       const double sampling_distance = (std::max)(a.spacing, b.spacing);
-      const Similarity_refinement refined =
-          Similarity_refiner(a.fine.surfels, a.fine.probes, surface,
-                             sampling_distance)(b.own_from_input * motion * a.own_from_input.inverse());
-      if (refined.matches > best.matches) best = refined;
+      Similarity_refiner refiner(a.fine.surfels, a.fine.probes, surface, sampling_distance);
+      const Rigid_motion initial = b.own_from_input * motion * a.own_from_input.inverse();
+      Similarity_refinement refined = refiner(initial);
+      if (refined.matches <= best.matches) continue;
+      refined.is_scale_free = is_scale_free(refiner, initial, refined);
+      best = refined;
     }
   return best;
 }
@@ -207,7 +224,7 @@ inline Verdict verdict_of(const std::vector<Scaled_outcome>& outcomes, const Sca
     verdict.status = NOT_REGISTERED;
     verdict.free_motions.clear();
     verdict.reason = "no overlap found at any scale that cannot be by chance";
-  } else if (r.deviation * r.radius > r.sampling_distance) {
+  } else if (r.is_scale_free || r.deviation * r.radius > r.sampling_distance) {
     verdict.status = AMBIGUOUS;
     verdict.confidence = (std::min)(verdict.confidence, 0.5);
     verdict.free_motions.push_back("a change of scale");

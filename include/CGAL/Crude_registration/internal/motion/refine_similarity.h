@@ -38,6 +38,8 @@ struct Similarity_refinement
   double scale = 1;             // x -> motion(scale x)
   std::size_t matches = 0;      // points that have a correspondence
   double deviation = 0;         // standard, of the scale, as a share of it
+  double median = 0;            // of the distances of the matches along their normals
+  bool is_scale_free = false;   // the surfaces agree as well at other scales, see refined_similarity()
   double radius = 0;            // root mean square, of the matches about their mean
   double sampling_distance = 0; // the larger of the two scans'
 };
@@ -54,26 +56,32 @@ public:
       : m_surfels(surfels), m_probes(probes), m_target(target), m_s(s)
   {}
 
-  Similarity_refinement operator()(const Rigid_motion& initial)
+  Similarity_refinement operator()(const Rigid_motion& initial) { return refined(initial, 1, false); }
+
+  // At a scale that stays as it is.
+  Similarity_refinement at_scale(const Rigid_motion& initial, double scale) { return refined(initial, scale, true); }
+
+private:
+  Similarity_refinement refined(const Rigid_motion& initial, double scale, bool scale_stays)
   {
     constexpr int most_steps = 50;
     constexpr double tolerance = 1e-2, shortest_reach = 2, first_reach = 4; // in sampling distances
     Similarity_refinement result;
     result.motion = initial;
+    result.scale = scale;
     result.sampling_distance = m_s;
     double reach = first_reach * m_s;
     for (int step = 0; step < most_steps; ++step) {
       find_matches(result, reach);
       result.matches = m_matches.size();
       if (m_matches.size() < fewest_matches) return result;
-      const double displacement = move(result);
+      const double displacement = move(result, scale_stays);
       if (!(displacement > tolerance * m_s)) break;
       reach = (std::max)(shortest_reach * m_s, (std::min)(reach, 4 * median_height()));
     }
     return result;
   }
 
-private:
   using Matrix_7 = Eigen::Matrix<double, 7, 7>;
   using Vector_7 = Eigen::Matrix<double, 7, 1>;
 
@@ -114,9 +122,10 @@ private:
   }
 
   // A step; returns how far it moves the matches, about.
-  double move(Similarity_refinement& r)
+  double move(Similarity_refinement& r, bool scale_stays)
   {
-    const double sigma = (std::max)(1.4826 * median_height(), smallest_sigma * m_s);
+    r.median = median_height();
+    const double sigma = (std::max)(1.4826 * r.median, smallest_sigma * m_s);
     Vector mean = Vector::Zero();
     double total = 0, spread = 0, squares = 0;
     std::vector<double> weights;
@@ -138,7 +147,7 @@ private:
       const Match& m = m_matches[i];
       const Vector p = (m.source - mean) / r.radius;
       Vector_7 row;
-      row << p.cross(m.normal), m.normal, p.dot(m.normal);
+      row << p.cross(m.normal), m.normal, scale_stays ? 0 : p.dot(m.normal);
       left += weights[i] * row * row.transpose();
       right += weights[i] * m.height * row;
     }
