@@ -19,7 +19,7 @@ set(rooms
   "Scan.h"
   "IO/.*"
   "register_scans.h"
-  "judge_motion.h|compare_points.h|fused_points.h"
+  "judge_motion.h|register_scans_with_scale.h|compare_points.h|fused_points.h"
   "assemble_scans.h"
   "register_meshes.h"
   "all_headers.h")

@@ -51,7 +51,8 @@ once, and the files for CMake, by which a program aligns range scans, meshes
 and points that overlap in part and whose relative position is unknown.")
 # What the headers include, and what the core was compiled with.
 set(depends "libcgal-dev (>= 5.5.1), libeigen3-dev (>= 3.3)")
-foreach(option_and_package IN ITEMS TBB=libtbb-dev PNG=libpng-dev GZIP=libboost-iostreams-dev)
+foreach(option_and_package IN ITEMS TBB=libtbb-dev PNG=libpng-dev GZIP=libboost-iostreams-dev
+        JSON=nlohmann-json3-dev)
   string(REGEX MATCH "(.*)=(.*)" matched ${option_and_package})
   if(CRUDE_REGISTRATION_COMPILED_WITH_${CMAKE_MATCH_1})
     string(APPEND depends ", ${CMAKE_MATCH_2}")

@@ -21,7 +21,7 @@ file(WRITE ${PROJECT_BINARY_DIR}/headers/flags.cpp "")
 add_library(headers_alone_flags OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers/flags.cpp)
 target_link_libraries(headers_alone_flags PRIVATE CGAL::CGAL CGAL::Eigen3_support
   $<TARGET_NAME_IF_EXISTS:CGAL::TBB_support> $<TARGET_NAME_IF_EXISTS:PNG::PNG>
-  $<TARGET_NAME_IF_EXISTS:Boost::iostreams>)
+  $<TARGET_NAME_IF_EXISTS:Boost::iostreams> $<TARGET_NAME_IF_EXISTS:nlohmann_json::nlohmann_json>)
 target_compile_definitions(headers_alone_flags PRIVATE
   $<TARGET_PROPERTY:Crude_registration,INTERFACE_COMPILE_DEFINITIONS>)
 set(includes "$<FILTER:$<TARGET_PROPERTY:headers_alone_flags,INCLUDE_DIRECTORIES>,EXCLUDE,^/usr/include(/[^/]*-linux-[^/]*)?$>")

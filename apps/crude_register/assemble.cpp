@@ -190,7 +190,7 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
       "(Stanford) or .aln (MeshLab): a file of that form, of the largest component");
   add("output", po::value<std::string>(),
       "file (PLY) for the points of the largest component in one frame, each with the number of its scan and its "
-      "distance from the other ones, -1 where they are not near");
+      "distance from the other ones, -1 where they are not near; with their colours if the scans have any");
   add("apply", po::value<std::string>(),
       "folder, made if missing, for the files of the largest component as they are but moved to its frame: in their "
       "own "

@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/assemble_scans.h>
 
+#include <CGAL/IO/Color.h>
 #include <CGAL/IO/write_ply_points.h>
 
 #include <Eigen/Geometry>
@@ -193,26 +194,43 @@ inline void write_tables(std::ostream& out, const Assembly& result, const std::v
         << '\n';
 }
 
-// The points of the largest component, read again, in its frame.
+// The points of the largest component, read again, in its frame, with their colours if a scan has any: points that have
+// none are white.
 inline void write_points(const std::string& name, const po::variables_map& map, const Assembly& result,
                          const std::vector<CR::Scan<Kernel>>& scans, const std::vector<std::string>& files)
 {
-  using Sample = std::tuple<Point, int, double>;
+  using Part = unsigned char; // of a colour
+  using Sample = std::tuple<Point, int, double, Part, Part, Part>;
   std::vector<Sample> samples;
+  bool have_colours = false;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (result.component(i) != 0) continue;
-    const std::vector<Point> points = points_of(read_scan(map, files[i]));
+    const Scan_file contents = read_scan(map, files[i]);
+    const std::vector<Point> points = points_of(contents);
+    have_colours = have_colours || !contents.colors.empty();
     const std::vector<double> distances = CR::distances_to_other_scans(scans, result, i, points);
-    for (std::size_t k = 0; k < points.size(); ++k)
-      samples.emplace_back(result.pose(i).transform(points[k]), int(i),
-                           std::isfinite(distances[k]) ? distances[k] : -1);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const CGAL::IO::Color colour = contents.colors.empty() ? CGAL::IO::white() : contents.colors[k];
+      samples.emplace_back(result.pose(i).transform(points[k]), int(i), std::isfinite(distances[k]) ? distances[k] : -1,
+                           colour.red(), colour.green(), colour.blue());
+    }
   }
   CR::write_file(name, [&](std::ostream& out) {
     CGAL::IO::set_binary_mode(out);
-    CGAL::IO::write_PLY_with_properties(
-        out, samples, CGAL::make_ply_point_writer(CGAL::Nth_of_tuple_property_map<0, Sample>()),
-        std::make_pair(CGAL::Nth_of_tuple_property_map<1, Sample>(), CGAL::PLY_property<int>("scan")),
-        std::make_pair(CGAL::Nth_of_tuple_property_map<2, Sample>(), CGAL::PLY_property<double>("distance")));
+    const auto point = [] { return CGAL::make_ply_point_writer(CGAL::Nth_of_tuple_property_map<0, Sample>()); };
+    const auto scan = [] {
+      return std::make_pair(CGAL::Nth_of_tuple_property_map<1, Sample>(), CGAL::PLY_property<int>("scan"));
+    };
+    const auto distance = [] {
+      return std::make_pair(CGAL::Nth_of_tuple_property_map<2, Sample>(), CGAL::PLY_property<double>("distance"));
+    };
+    if (have_colours)
+      CGAL::IO::write_PLY_with_properties(
+          out, samples, point(), scan(), distance(),
+          std::make_pair(CGAL::Nth_of_tuple_property_map<3, Sample>(), CGAL::PLY_property<Part>("red")),
+          std::make_pair(CGAL::Nth_of_tuple_property_map<4, Sample>(), CGAL::PLY_property<Part>("green")),
+          std::make_pair(CGAL::Nth_of_tuple_property_map<5, Sample>(), CGAL::PLY_property<Part>("blue")));
+    else CGAL::IO::write_PLY_with_properties(out, samples, point(), scan(), distance());
   });
 }
 

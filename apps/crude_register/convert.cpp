@@ -11,6 +11,7 @@
 #include "files.h"
 #include "options.h"
 #include "scan_arguments.h"
+#include "colours.h"
 #include "surfaces.h"
 
 #include <CGAL/Crude_registration/IO/write_range_image.h>
@@ -28,6 +29,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -39,6 +41,7 @@ struct Table
   std::size_t columns = 0, rows = 1;
   bool is_grid = false, has_normals = false;
   std::vector<std::array<double, 6>> samples; // a point and its normal
+  Colours colours;                            // as many, or none
 };
 
 Table table_of(const Scan_file& scan)
@@ -54,14 +57,18 @@ Table table_of(const Scan_file& scan)
   if (!table.is_grid) {
     table.columns = points.size();
     for (std::size_t i = 0; i < points.size(); ++i) table.samples.push_back(sample(i));
+    table.colours = scan.colors;
     return table;
   }
   table.columns = scan.image.columns();
   table.rows = scan.image.rows();
   std::array<double, 6> missing;
   missing.fill(std::numeric_limits<double>::quiet_NaN());
-  for (const auto i : scan.image.grid())
-    table.samples.push_back(i == CR::Range_image<Kernel>::no_sample ? missing : sample(std::size_t(i)));
+  for (const auto i : scan.image.grid()) {
+    const bool is_missing = i == CR::Range_image<Kernel>::no_sample;
+    table.samples.push_back(is_missing ? missing : sample(std::size_t(i)));
+    if (!scan.colors.empty()) table.colours.push_back(is_missing ? CGAL::IO::black() : scan.colors[std::size_t(i)]);
+  }
   return table;
 }
 
@@ -72,7 +79,16 @@ void write_numbers(std::ostream& out, const std::array<double, 6>& numbers, std:
     if (i > 0) out.put(separator);
     out.write(text.data(), std::to_chars(text.data(), text.data() + text.size(), numbers[i]).ptr - text.data());
   }
-  out.put('\n');
+}
+
+// A colour as PCL writes it: the bytes 0, red, green and blue as those of a float.
+void write_packed(std::ostream& out, const CGAL::IO::Color& c)
+{
+  const std::uint32_t bits = std::uint32_t(c.red()) << 16 | std::uint32_t(c.green()) << 8 | std::uint32_t(c.blue());
+  float number;
+  std::memcpy(&number, &bits, sizeof number);
+  std::array<char, 32> text;
+  out.write(text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr - text.data());
 }
 
 // Samples that are there, one a line.
@@ -81,16 +97,20 @@ void write_text(std::ostream& out, const Table& table, char separator)
   const std::size_t count = table.has_normals ? 6 : 3;
   if (separator == ',') out << (table.has_normals ? "x,y,z,nx,ny,nz\n" : "x,y,z\n");
   for (const auto& s : table.samples)
-    if (s[0] == s[0]) write_numbers(out, s, count, separator);
+    if (s[0] == s[0]) {
+      write_numbers(out, s, count, separator);
+      out.put('\n');
+    }
 }
 
 void write_pcd(std::ostream& out, const Table& table, const CR::Sensor<Kernel>& sensor)
 {
-  const bool normals = table.has_normals;
+  const bool normals = table.has_normals, colours = !table.colours.empty();
   out << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z"
-      << (normals ? " normal_x normal_y normal_z" : "") << "\nSIZE 4 4 4" << (normals ? " 4 4 4" : "") << "\nTYPE F F F"
-      << (normals ? " F F F" : "") << "\nCOUNT 1 1 1" << (normals ? " 1 1 1" : "") << "\nWIDTH " << table.columns
-      << "\nHEIGHT " << table.rows << "\nVIEWPOINT ";
+      << (normals ? " normal_x normal_y normal_z" : "") << (colours ? " rgb" : "") << "\nSIZE 4 4 4"
+      << (normals ? " 4 4 4" : "") << (colours ? " 4" : "") << "\nTYPE F F F" << (normals ? " F F F" : "")
+      << (colours ? " F" : "") << "\nCOUNT 1 1 1" << (normals ? " 1 1 1" : "") << (colours ? " 1" : "") << "\nWIDTH "
+      << table.columns << "\nHEIGHT " << table.rows << "\nVIEWPOINT ";
   if (sensor.is_perspective()) {
     const Point p = sensor.viewpoint();
     out << p.x() << ' ' << p.y() << ' ' << p.z();
@@ -98,7 +118,11 @@ void write_pcd(std::ostream& out, const Table& table, const CR::Sensor<Kernel>& 
     out << "0 0 0";
   }
   out << " 1 0 0 0\nPOINTS " << table.samples.size() << "\nDATA ascii\n";
-  for (const auto& s : table.samples) write_numbers(out, s, normals ? 6 : 3, ' ');
+  for (std::size_t i = 0; i < table.samples.size(); ++i) {
+    write_numbers(out, table.samples[i], normals ? 6 : 3, ' ');
+    if (colours) write_packed(out << ' ', table.colours[i]);
+    out.put('\n');
+  }
 }
 
 // An array of f8, little-endian: rows x columns x 3 of a range image, n x 3 or n x 6 of points.
@@ -122,16 +146,30 @@ void write_npy(std::ostream& out, const Table& table)
 
 void write_ply_points(std::ostream& out, const Scan_file& scan)
 {
-  using Sample = std::pair<Point, Direction>;
+  using Part = unsigned char; // of a colour
+  using Sample = std::tuple<Point, Direction, Part, Part, Part>;
   std::vector<Sample> samples;
-  for (std::size_t i = 0; i < scan.points.size(); ++i)
-    samples.emplace_back(scan.points[i], scan.normals.empty() ? CGAL::NULL_VECTOR : scan.normals[i]);
+  const bool normals = !scan.normals.empty(), colours = !scan.colors.empty();
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const CGAL::IO::Color c = colours ? scan.colors[i] : CGAL::IO::white();
+    samples.emplace_back(scan.points[i], normals ? scan.normals[i] : CGAL::NULL_VECTOR, c.red(), c.green(), c.blue());
+  }
   CGAL::IO::set_binary_mode(out);
-  if (scan.normals.empty()) CGAL::IO::write_PLY(out, scan.points);
-  else
-    CGAL::IO::write_PLY_with_properties(out, samples,
-                                        CGAL::make_ply_point_writer(CGAL::First_of_pair_property_map<Sample>()),
-                                        CGAL::make_ply_normal_writer(CGAL::Second_of_pair_property_map<Sample>()));
+  const auto point = [] { return CGAL::make_ply_point_writer(CGAL::Nth_of_tuple_property_map<0, Sample>()); };
+  const auto normal = [] { return CGAL::make_ply_normal_writer(CGAL::Nth_of_tuple_property_map<1, Sample>()); };
+  const auto red = [] {
+    return std::make_pair(CGAL::Nth_of_tuple_property_map<2, Sample>(), CGAL::PLY_property<Part>("red"));
+  };
+  const auto green = [] {
+    return std::make_pair(CGAL::Nth_of_tuple_property_map<3, Sample>(), CGAL::PLY_property<Part>("green"));
+  };
+  const auto blue = [] {
+    return std::make_pair(CGAL::Nth_of_tuple_property_map<4, Sample>(), CGAL::PLY_property<Part>("blue"));
+  };
+  if (normals && colours) CGAL::IO::write_PLY_with_properties(out, samples, point(), normal(), red(), green(), blue());
+  else if (normals) CGAL::IO::write_PLY_with_properties(out, samples, point(), normal());
+  else if (colours) CGAL::IO::write_PLY_with_properties(out, samples, point(), red(), green(), blue());
+  else CGAL::IO::write_PLY(out, scan.points);
 }
 
 constexpr const char* written_formats = ".ply, .off, .obj, .stl, .pcd, .npy, .xyz, .txt, .asc or .csv";
@@ -142,11 +180,12 @@ void write_scan(const std::string& file, const Scan_file& scan, const std::optio
   const bool is_surface = format == ".off" || format == ".obj" || format == ".stl";
   const auto& sensor = scan.kind == Scan_file::RANGE_IMAGE ? scan.image.sensor() : scan.sensor;
   if (format == ".ply" && scan.kind == Scan_file::RANGE_IMAGE) {
-    CR::write_range_image(file, scan.image);
+    CR::write_range_image(file, scan.image, scan.colors);
     return;
   }
   if (is_surface || (format == ".ply" && scan.kind == Scan_file::MESH)) {
-    const Mesh mesh = mesh_of(scan, viewpoint);
+    Mesh mesh = mesh_of(scan, viewpoint);
+    add_colours(scan, mesh);
     if (mesh.number_of_faces() == 0) throw CR::IO_error(file, "the scan has no surface that could be written");
     CR::write_file(file, [&](std::ostream& out) {
       if (format == ".ply" || format == ".stl") CGAL::IO::set_binary_mode(out);
@@ -178,10 +217,11 @@ int run_convert(const std::vector<std::string>& arguments)
   const Command command = {
       "convert",
       "SCAN OUTPUT",
-      "Writes what is read of a scan (points, normals, faces, the grid and the sensor of a range image, no colours) to "
-      "a "
-      "file whose\nname ends in .ply, .off, .obj, .stl, .pcd, .npy, .xyz, .txt, .asc or .csv. Range images and points "
-      "become a surface for\n.off, .obj and .stl, meshes points for .pcd, .npy and text.\n",
+      "Writes what is read of a scan (points, normals, faces, the grid and the sensor of a range image) to a file "
+      "whose\n"
+      "name ends in .ply, .off, .obj, .stl, .pcd, .npy, .xyz, .txt, .asc or .csv. Range images and points become a "
+      "surface for\n.off, .obj and .stl, meshes points for .pcd, .npy and text. Colours are kept in .ply, .off and "
+      ".pcd.\n",
       {{"depth.png scan.ply", "a depth image as a range image in PLY"},
        {"scan.ptx#2 scan.obj", "the second scan of a PTX file as a surface"}},
       {}};

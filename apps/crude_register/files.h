@@ -19,6 +19,7 @@
 #include <CGAL/Crude_registration/IO/triangulate_scan.h>
 #include <CGAL/Crude_registration/IO/write_file.h>
 
+#include <CGAL/IO/Color.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <array>
@@ -178,24 +179,29 @@ inline void write_mesh(const std::string& file, const Mesh& mesh)
   });
 }
 
-// Triangles, as write_mesh() writes them: a fraction of the time.
+// Triangles, as write_mesh() writes them: a fraction of the time. `colours`: of the points, one each, or none.
 inline void write_triangles(const std::string& file, const std::vector<Point>& points,
-                            const std::vector<std::array<std::size_t, 3>>& triangles)
+                            const std::vector<std::array<std::size_t, 3>>& triangles,
+                            const std::vector<CGAL::IO::Color>& colours)
 {
   const std::uint32_t one = 1;
   std::uint8_t first_byte = 0;
   std::memcpy(&first_byte, &one, 1);
   std::string bytes = std::string("ply\nformat ") + (first_byte == 1 ? "binary_little_endian" : "binary_big_endian") +
                       " 1.0\nelement vertex " + std::to_string(points.size()) +
-                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-                      std::to_string(triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+                      "\nproperty double x\nproperty double y\nproperty double z" +
+                      (colours.empty() ? "" : "\nproperty uchar red\nproperty uchar green\nproperty uchar blue") +
+                      "\nelement face " + std::to_string(triangles.size()) +
+                      "\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::size_t bytes_of_colour = colours.empty() ? 0 : 3;
   constexpr std::size_t bytes_of_point = 3 * sizeof(double), bytes_of_triangle = 1 + 3 * sizeof(std::int32_t);
   std::size_t at = bytes.size();
-  bytes.resize(at + bytes_of_point * points.size() + bytes_of_triangle * triangles.size());
-  for (const Point& p : points) {
-    const std::array<double, 3> x = {p.x(), p.y(), p.z()};
+  bytes.resize(at + (bytes_of_point + bytes_of_colour) * points.size() + bytes_of_triangle * triangles.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::array<double, 3> x = {points[i].x(), points[i].y(), points[i].z()};
     std::memcpy(&bytes[at], x.data(), bytes_of_point);
     at += bytes_of_point;
+    for (std::size_t k = 0; k < bytes_of_colour; ++k) bytes[at++] = char(colours[i][k]);
   }
   for (const auto& t : triangles) {
     const std::array<std::int32_t, 3> corners = {std::int32_t(t[0]), std::int32_t(t[1]), std::int32_t(t[2])};

@@ -36,7 +36,8 @@ constexpr Named_command commands[] = {
 
 constexpr const char* formats =
     "SOURCE, TARGET and SCAN are range images (PLY with a range_grid, PTX, organised PCD, depth images in PNG), meshes "
-    "(PLY, OFF,\nOBJ, STL) or points (text, PLY, PCD, NPY, LAS). FILE.ptx#2 is the second scan of a PTX file. For "
+    "(PLY, OFF,\nOBJ, STL, glTF) or points (text, PLY, PCD, NPY, LAS, glTF). FILE.ptx#2 is the second scan of a PTX "
+    "file. For "
     "SCAN... a folder stands for\nall scans in it, and a pattern as 'scan_*.ply' for all files that it fits.\n";
 
 constexpr const char* exit_codes =

@@ -8,6 +8,7 @@
 // register: finds the motion that maps one scan onto another.
 
 #include "apply.h"
+#include "colours.h"
 #include "commands.h"
 #include "files.h"
 #include "json.h"
@@ -24,6 +25,7 @@
 #include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>
 #include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
 #include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/register_scans_with_scale.h>
 
 #include <CGAL/Polygon_mesh_processing/transform.h>
 #include <CGAL/for_each.h>
@@ -64,6 +66,8 @@ struct Side : Scan_of_a_side
 struct Answer
 {
   Result result;
+  bool is_scale_estimated = false;
+  double scale = 1, scale_deviation = 0; // of the source, estimated
   double preparation_seconds = 0;
   double search_seconds = 0;
 };
@@ -83,9 +87,20 @@ Generator generator_with(const std::optional<double>& f1, const std::optional<do
   }
 }
 
+// From here on the source is as large as it was found to be.
+void take_scale(double factor, Side& source)
+{
+  if (factor == 1) return;
+  scale(source.contents, factor);
+  if (source.viewpoint) source.viewpoint = source.viewpoint->transform(Transformation(CGAL::SCALING, factor));
+  source.scan = std::make_unique<const Scan>(CR::scaled(*source.scan, factor));
+  source.unit *= factor;
+}
+
 // Reads, prepares and registers the two scans.
 template <class Generator>
-Answer register_files(std::array<Side, 2>& sides, const Generator& generator, double time_budget, Progress& progress)
+Answer register_files(std::array<Side, 2>& sides, const Generator& generator, double time_budget, bool estimate_scale,
+                      Progress& progress)
 {
   const auto left = [&, begin = Clock::now()] { // of the time budget
     constexpr double shortest = 1e-9;
@@ -112,12 +127,22 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, do
     if (side.failure) std::rethrow_exception(side.failure);
 
   Answer answer;
+  answer.is_scale_estimated = estimate_scale;
   answer.preparation_seconds = sides[0].seconds + sides[1].seconds;
   const auto start = Clock::now();
   if (sides[0].scan && sides[1].scan) {
     progress.begin_stage("registering");
-    answer.result = CR::register_scans<CGAL::Parallel_if_available_tag>(
-        *sides[0].scan, *sides[1].scan, CR::parameters::time_budget(left()).candidates(generator).visitor(visitor));
+    const auto np = CR::parameters::time_budget(left()).candidates(generator).visitor(visitor);
+    if (estimate_scale) {
+      const auto scaled =
+          CR::register_scans_with_scale<CGAL::Parallel_if_available_tag>(*sides[0].scan, *sides[1].scan, np);
+      answer.result = scaled.registration;
+      answer.scale = scaled.scale;
+      answer.scale_deviation = scaled.scale_deviation;
+      take_scale(answer.scale, sides[0]);
+    } else {
+      answer.result = CR::register_scans<CGAL::Parallel_if_available_tag>(*sides[0].scan, *sides[1].scan, np);
+    }
   } else {
     Result::Parts parts;
     parts.reason = sides[0].scan ? sides[1].interruption : sides[0].interruption;
@@ -152,7 +177,7 @@ std::string hint_of(const std::array<Side, 2>& sides)
   std::ostringstream text;
   text << "the " << large << " is " << std::setprecision(3) << ratio << " times as large as the " << small
        << ": if their units differ, say them, as by --" << large << "-unit " << nearest->second << " --" << small
-       << "-unit " << nearest->first << "; if the " << small << " is a part of the " << large
+       << "-unit " << nearest->first << ", or try --estimate-scale; if the " << small << " is a part of the " << large
        << ", cut that to about it";
   return text.str();
 }
@@ -225,16 +250,18 @@ std::vector<Point> vertices_of(const Side& side, const Surface& shown)
   return std::vector<Point>(mesh.points().begin(), mesh.points().end());
 }
 
-// A surface as it is written: as the file has it if it is a mesh, else triangulated, moved.
+// A surface as it is written: as the file has it if it is a mesh, else triangulated, moved; with the colours of the
+// file.
 void write_surface(const std::string& file, const Side& side, const Surface& shown, const Transformation& motion)
 {
   if (side.contents.kind == Scan_file::RANGE_IMAGE) {
     std::vector<Point> points;
     points.reserve(shown.points.size());
     for (const Point& p : shown.points) points.push_back(p.transform(motion));
-    write_triangles(file, points, shown.triangles);
+    write_triangles(file, points, shown.triangles, colours_at(shown.points, side.contents));
   } else {
     Mesh mesh = mesh_of(side.contents, side.viewpoint);
+    add_colours(side.contents, mesh);
     CGAL::Polygon_mesh_processing::transform(motion, mesh);
     write_mesh(file, mesh);
   }
@@ -275,6 +302,10 @@ void print_json(const std::array<Side, 2>& sides, const Answer& answer, const st
   json["target"] = sides[1].file;
   add_result(json, answer.result, with_times);
   json["hint"] = hint;
+  if (answer.is_scale_estimated) {
+    json["estimated_scale"] = answer.scale;
+    json["estimated_scale_deviation"] = answer.scale_deviation;
+  }
   json["notes"] = notes_of(sides);
   if (error) json["error"] = {{"rotation_in_degrees", error->degrees}, {"rms_displacement", error->displacement}};
   if (with_times) {
@@ -297,6 +328,11 @@ void print_text(const std::array<Side, 2>& sides, const Answer& answer, const st
   if (!hint.empty()) std::cout << "hint:       " << hint << '\n';
   std::cout << std::setprecision(4) << "confidence: " << result.confidence() << '\n';
   for (const std::string& name : result.free_motions()) std::cout << "free:       " << name << '\n';
+  if (answer.is_scale_estimated && result.status() != CR::NOT_REGISTERED)
+    std::cout << "scale:      " << std::setprecision(6) << answer.scale
+              << ", estimated: the source was multiplied by it, " << std::setprecision(1)
+              << 100 * answer.scale_deviation << " % standard deviation\n"
+              << std::setprecision(4);
   if (result.status() != CR::NOT_REGISTERED) {
     std::cout << "overlap:    " << 100 * result.overlap() << " % of the source\n"
               << "residual:   " << result.residual() << " sampling distances\n";
@@ -313,11 +349,15 @@ void print_text(const std::array<Side, 2>& sides, const Answer& answer, const st
 }
 
 // The answer on a page to look at.
-Pair_report report_of(const std::array<Side, 2>& sides, const Result& result, const std::optional<Error>& error,
+Pair_report report_of(const std::array<Side, 2>& sides, const Answer& answer, const std::optional<Error>& error,
                       const std::string& hint)
 {
+  const Result& result = answer.result;
   const std::array<const Scan*, 2> scans = {sides[0].scan.get(), sides[1].scan.get()};
   Pair_report report{"register", {&sides[0], &sides[1]}, scans, verdict_of(result, hint), numbers_of(result, scans)};
+  if (answer.is_scale_estimated)
+    report.numbers.push_back({"Scale", number_text(answer.scale),
+                              "By how much the source was multiplied: an estimate, found with the motion."});
   if (error)
     report.numbers.push_back({"Error",
                               number_text(error->degrees) + " degrees, " + number_text(error->displacement) +
@@ -343,7 +383,7 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
       "and no longer than this share, about the least share of the scan that overlaps; 0.3 if not given");
   add("output", po::value<std::string>(),
       "folder for source_moved.ply, target.ply and motion.txt (the 4 x 4 matrix); "
-      "made if missing, written unless the scans are not registered");
+      "made if missing, written unless the scans are not registered; with the colours of the scans");
   add("apply", po::value<std::string>(), apply_help);
   add("picture", po::value<std::string>(),
       "file (PNG) for a picture of both scans as they were registered, the source orange and the target blue; side by "
@@ -352,6 +392,9 @@ std::optional<po::variables_map> parse_register(const std::vector<std::string>& 
       "file (HTML) for a page to look at the scans in, before and after, with all numbers explained and a section to "
       "move; it needs a browser and nothing else");
   add_options_of_sides(options);
+  add("estimate-scale",
+      "find the factor between the units of the two files, too, where nobody knows it: the source is multiplied by it, "
+      "and the answer says so; slower, and less sure than the units are");
   add("poses", po::value<std::string>(), "file of true poses (FILE and a 3 x 4 matrix a line): print the error, too");
   add("time-budget", po::value<double>(),
       "seconds from the start after which preparation and search end, with the best so far");
@@ -389,6 +432,9 @@ int run_register(const std::vector<std::string>& arguments)
   if (report) check_output(*report);
   const auto poses = poses_file ? read_poses(*poses_file) : std::map<std::string, Transformation>();
 
+  const bool estimate_scale = map.count("estimate-scale") > 0;
+  if (estimate_scale && map.count("source-unit") > 0)
+    throw Usage_error("--estimate-scale finds what --source-unit and --target-unit say: give the one or the others");
   std::array<Side, 2> sides;
   const std::array<Scan_of_a_side, 2> given_sides = sides_of(map);
   for (std::size_t i = 0; i < 2; ++i) static_cast<Scan_of_a_side&>(sides[i]) = given_sides[i];
@@ -397,9 +443,11 @@ int run_register(const std::vector<std::string>& arguments)
   Progress progress;
   const Answer answer = [&] {
     if (method == "pairs")
-      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget, progress);
+      return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget, estimate_scale,
+                            progress);
     if (method == "trihedra")
-      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), time_budget, progress);
+      return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), time_budget, estimate_scale,
+                            progress);
     throw Usage_error("--method takes pairs or trihedra, not '" + method + "'");
   }();
   const Result& result = answer.result;
@@ -407,7 +455,7 @@ int run_register(const std::vector<std::string>& arguments)
   progress.begin_stage("writing");
   const bool is_registered = result.status() != CR::NOT_REGISTERED;
   const Transformation& motion = result.transformation();
-  const std::string hint = result.status() == CR::REGISTERED ? "" : hint_of(sides);
+  const std::string hint = result.status() == CR::REGISTERED || estimate_scale ? "" : hint_of(sides);
   std::array<Surface, 2> shown;
   if (picture || (is_registered && (output || poses_file)))
     CGAL::for_each<CGAL::Parallel_if_available_tag>(std::array<std::size_t, 2>{0, 1}, [&](std::size_t i) {
@@ -437,7 +485,7 @@ int run_register(const std::vector<std::string>& arguments)
     });
   std::optional<Pair_page> page;
   if (report) {
-    page.emplace(report_of(sides, result, error, hint));
+    page.emplace(report_of(sides, answer, error, hint));
     outputs.add("", [&] { page->prepare(); });
   }
   std::vector<std::string> written = outputs.write();

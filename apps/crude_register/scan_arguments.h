@@ -35,8 +35,9 @@ inline bool is_depth_image(const std::string& file)
 // Whether a file in a folder is one of its scans, by its name. What this program writes beside scans is none.
 inline bool is_scan(const std::filesystem::path& path)
 {
-  static constexpr std::array<const char*, 15> known = {".ply", ".off", ".obj", ".stl", ".ptx", ".pcd", ".npy", ".png",
-                                                        ".las", ".xyz", ".txt", ".asc", ".pts", ".csv", ".ts"};
+  static constexpr std::array<const char*, 17> known = {".ply", ".off", ".obj", ".stl", ".ptx", ".pcd",
+                                                        ".npy", ".png", ".las", ".xyz", ".txt", ".asc",
+                                                        ".pts", ".csv", ".ts",  ".glb", ".gltf"};
   const std::string name = path.filename().string(), extension = format_by_name(name);
   if (name == "poses.txt" || name == "motion.txt" || name.front() == '.') return false;
   if (std::find(known.begin(), known.end(), extension) == known.end()) return false;

@@ -77,7 +77,7 @@ const char* const scan_file_doc =
 const char* const read_scan_doc = R"(read_scan(path, *, camera=None)
 --
 
-Reads a scan from a file, whatever it holds: PLY (with a range_grid, with faces, or points), PCD, PTX, OFF, OBJ, STL, LAS,
+Reads a scan from a file, whatever it holds: PLY (with a range_grid, with faces, or points), PCD, PTX, OFF, OBJ, STL, glTF, LAS,
 NPY, PNG (depth images), points as text, and what the C++ function read_scan() lists. Returns a ScanFile.
 
 path: the name of the file; of several scans in a PTX file, 'FILE.ptx#2' is the second one's.
@@ -305,6 +305,17 @@ void bind_scans(py::module_& module)
       "(n, 3): the normals that the file has for its points, of length 1, or 0 0 0 where there is none; None if it "
       "has\n"
       "none, and for meshes.");
+  file.def_property_readonly(
+      "colors",
+      [](const Scan_file& f) -> py::object {
+        if (f.colors.empty()) return py::none();
+        py::array_t<std::uint8_t> colors({py::ssize_t(f.colors.size()), py::ssize_t(3)});
+        auto to = colors.mutable_unchecked<2>();
+        for (std::size_t i = 0; i < f.colors.size(); ++i)
+          for (std::size_t k = 0; k < 3; ++k) to(py::ssize_t(i), py::ssize_t(k)) = f.colors[i][k];
+        return std::move(colors);
+      },
+      "(n, 3): the colours that the file has for its points, red, green and blue from 0 to 255; None if it has none.");
   file.def_property_readonly("grid", &grid_of,
                              "(rows, columns): the row of points of each cell of a range image, -1 where there is no "
                              "sample; None for other kinds.");

@@ -370,6 +370,17 @@ awk 'NR == FNR { for (j = 1; j <= 3; ++j) a[FNR, j] = $j; n = FNR; next }
     if (t < 1e6 * s * 0.9999 || t > 1e6 * s * 1.0001) exit 1 }
   FNR == 1 { for (j = 1; j <= 3; ++j) p0[j] = $j }' metres_0.xyz millimetres_0.xyz ||
   fail "--apply does not write the unit of the target"
+# The same without a word of the units: the factor is found, and told; what is applied is scaled by it.
+expect 0 register metres_0.xyz points_1.xyz --source-viewpoint "$metres_sensor" --target-viewpoint "$target_sensor" \
+  --estimate-scale --apply estimated_0.xyz --output estimated --report estimated.html
+grep -q "^scale:      \(1000\|999\.[5-9][0-9]*\|1000\.[0-4][0-9]*\), estimated: " out.txt || fail "no scale of 1000: $(cat out.txt)"
+paste millimetres_0.xyz estimated_0.xyz | awk '{ for (j = 1; j <= 3; ++j) if (($j - $(j + 3)) ^ 2 > 4e-4) exit 1 }' ||
+  fail "--apply does not write the estimated scale"
+expect 0 register $pair --estimate-scale --json
+holds /estimated_scale 1.0
+expect 0 register $pair --json
+grep -q estimated_scale out.txt && fail "a scale is told of that was not estimated"
+rejects "--estimate-scale" register $pair --estimate-scale --source-unit m --target-unit mm
 rejects "--source-unit" register $pair --source-unit yard --target-unit m
 rejects "given together" register $pair --source-unit m
 rejects "--camera" register a.png b.png --camera 1,2,3
@@ -443,6 +454,45 @@ rejects "has to end in" convert scans/scan_0.ply converted.docx
 rejects "there is no folder nowhere" convert scans/scan_0.ply nowhere/converted.ply
 rejects "absent.ply" convert absent.ply converted.ply
 rejects "OUTPUT" convert scans/scan_0.ply
+# Colours stay with their points, another one for each: in what is written of a pair, of an assembly, by a conversion.
+for i in 0 1; do
+  awk -v first=$((i * 5000)) '/^property double z/ { print; print "property uchar red\nproperty uchar green\nproperty uchar blue"; next }
+    !body { print; body = /^end_header/; next }
+    NF == 3 { n = first + ++points; print $0, int(n / 256) % 256, n % 256, 9; next }
+    { print }' scans/scan_$i.ply > coloured_$i.ply
+  expect 0 convert coloured_$i.ply coloured_$i.pcd
+  grep -q '^FIELDS x y z rgb$' coloured_$i.pcd || fail "a range image in PCD has no colours"
+  expect 0 convert coloured_$i.pcd again.pcd
+  cmp -s coloured_$i.pcd again.pcd || fail "colours that were converted twice are others"
+done
+# (A surface has some of its vertices twice, as it is a manifold.)
+points_of() { awk 'body && $1 != "nan"; /^DATA/ { body = 1 }' "$1" | sort -u; }
+colours_of() { points_of "$1" | awk '{ print $NF }' | sort -u; }
+expect 0 register coloured_0.ply coloured_1.ply --output coloured
+for file in coloured/target.ply coloured/source_moved.ply; do expect 0 convert $file ${file%.ply}.pcd; done
+[ -z "$(comm -23 <(points_of coloured/target.pcd) <(points_of coloured_1.pcd))" ] ||
+  fail "the points of a written target have not the colours of its file"
+[ -z "$(comm -23 <(colours_of coloured/source_moved.pcd) <(colours_of coloured_0.pcd))" ] ||
+  fail "the moved source has colours that its file has not"
+[ "$(colours_of coloured/source_moved.pcd | wc -l)" -gt 3000 ] || fail "the moved source has lost its colours"
+expect 0 convert coloured_0.ply coloured.off
+head -c 4 coloured.off | grep -q COFF || fail "a mesh in OFF has no colours"
+expect 0 convert coloured.off coloured_mesh.ply
+expect 0 register coloured_mesh.ply coloured_1.ply --output coloured_mesh
+expect 0 convert coloured_mesh/source_moved.ply moved.pcd
+cmp -s <(colours_of moved.pcd) <(colours_of coloured/source_moved.pcd) || fail "a mesh has not kept its colours"
+expect 0 assemble coloured_0.ply scans/scan_1.ply --output coloured_model.ply
+expect 0 convert coloured_model.ply coloured_model.pcd
+printf 'ply\nformat ascii 1.0\nelement vertex 1\n%s1 2 3 255 255 255\n' "$(printf 'property float %s\n' x y z
+  printf 'property uchar %s\n' red green blue
+  printf 'end_header\n ')" | sed 's/^ *//' > white.ply
+expect 0 convert white.ply white.pcd
+white=$(colours_of white.pcd)
+cmp -s <(colours_of coloured_model.pcd | grep -vx -- "$white") <(colours_of coloured_0.pcd) ||
+  fail "the points of a model have not the colours of their scans"
+expect 0 assemble $pair --output plain_model.ply
+grep -aq 'property uchar red' plain_model.ply && fail "points without colours were given some"
+
 # Reports: one page that names no other file, the same bytes with any number of threads; a bad name is told before the work.
 is_page()
 {

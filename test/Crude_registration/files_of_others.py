@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-# Files that other programs wrote are read as they wrote them: files_of_others.py PROGRAM FOLDER. Open3D writes PLY and PCD
-# files, PCL's tools write PCD and PLY files; what is missing is passed over, and where both are the exit code is 77.
+# Files that other programs wrote are read as they wrote them: files_of_others.py PROGRAM FOLDER. Open3D writes PLY, PCD
+# and glTF files, PCL's tools write PCD and PLY files; what is missing is passed over, and where both are the exit code
+# is 77.
 import pathlib
 import shutil
 import subprocess
@@ -65,6 +66,20 @@ if open3d is not None:
                                      ("o3d.xyz", {}, as_text)]:
         if open3d.io.write_point_cloud(str(folder / name), cloud, **options):
             check(name, tolerance)
+        else:
+            failures.append(name + " is not written")
+
+    # A mesh in binary glTF, as floats: what the program writes of it has the vertices in their order.
+    columns, rows = 40, 30
+    corner = numpy.arange(columns * rows).reshape(rows, columns)
+    a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]
+    triangles = numpy.concatenate([numpy.stack(t, axis=-1).reshape(-1, 3) for t in [(a, b, c), (a, c, d)]])
+    mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(points), open3d.utility.Vector3iVector(triangles))
+    mesh.vertex_normals = open3d.utility.Vector3dVector(normals)
+    mesh.vertex_colors = open3d.utility.Vector3dVector(numpy.full_like(points, 0.5))
+    for name in ["o3d.glb", "o3d.gltf"]:
+        if open3d.io.write_triangle_mesh(str(folder / name), mesh):
+            check(name, as_float)
         else:
             failures.append(name + " is not written")
 

@@ -55,6 +55,8 @@ def main():
         registered,
         answer(0, "register", *pair, "--json", "--times", "--poses", "scans/poses.txt", "--output", "moved", "--apply", "moved.ply"),
         answer(3, "register", *others, "--json"),
+        answer(0, "register", *pair, "--estimate-scale", "--json"),
+        answer(3, "register", *others, "--estimate-scale", "--json"),
         answer(3, "register", *pair, "--json", "--time-budget", "1e-9"),
         answer(2, "register", *planes, "--json"),
         answer(0, "judge", *pair, "--motion", "answer.json", "--json"),
@@ -69,7 +71,8 @@ def main():
         assert not errors, (a["command"], errors)
         assert validator.is_valid(a), a["command"]
         # each member counts, and no other is allowed
-        optional = {"error", "preparation_seconds", "search_seconds", "columns", "rows", "normals_towards_sensor"}
+        optional = {"error", "preparation_seconds", "search_seconds", "columns", "rows", "normals_towards_sensor",
+                    "estimated_scale", "estimated_scale_deviation"}
         for member in set(a) - optional:
             less = copy.deepcopy(a)
             del less[member]

@@ -45,8 +45,8 @@ bool is_finite(const Kernel::Point_3& p)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   if (size == 0) return 0;
-  constexpr std::array<const char*, 13> extensions = {".ply", ".off", ".obj", ".stl", ".ptx", ".xyz",   ".csv",
-                                                      ".ts",  ".pcd", ".npy", ".las", ".png", ".xyz.gz"};
+  constexpr std::array<const char*, 15> extensions = {".ply", ".off", ".obj", ".stl", ".ptx",    ".xyz", ".csv", ".ts",
+                                                      ".pcd", ".npy", ".las", ".png", ".xyz.gz", ".glb", ".gltf"};
   const std::string& name = file_name(extensions[data[0] % extensions.size()]);
   {
     std::ofstream out(name, std::ios::binary);

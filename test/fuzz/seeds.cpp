@@ -162,6 +162,33 @@ std::string depth_image()
   return file;
 }
 
+// A mesh that a node places, and points; binary, and as text, with its buffer in base64.
+std::string gltf_file(bool is_binary)
+{
+  std::string buffer;
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) buffer += binary(x, false);
+  buffer += std::string("\0\1\2\0", 4);
+  const std::string uri =
+      is_binary ? "" : ",\"uri\":\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAECAA==\"";
+  std::string text =
+      "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"scale\":[1,2,"
+      "3],"
+      "\"rotation\":[0,0,0,1],\"children\":[1]},{\"mesh\":1,\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1]}],\"meshes\":["
+      "{"
+      "\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":0,\"COLOR_0\":0},\"indices\":1}]},{\"primitives\":[{"
+      "\"attributes\":{\"POSITION\":0},\"mode\":" +
+      std::string(is_binary ? "5" : "0") +
+      "}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3},{\"bufferView\":1,"
+      "\"componentType\":5121,\"type\":\"SCALAR\",\"count\":3}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{"
+      "\"buffer\":0,\"byteOffset\":36,\"byteLength\":3}],\"buffers\":[{\"byteLength\":40" +
+      uri + "}]}";
+  if (!is_binary) return text;
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  return "glTF" + binary(std::uint32_t(2), false) + binary(std::uint32_t(12 + 8 + text.size() + 8 + 40), false) +
+         binary(std::uint32_t(text.size()), false) + "JSON" + text + binary(std::uint32_t(40), false) +
+         std::string("BIN\0", 4) + buffer;
+}
+
 std::string packed([[maybe_unused]] const std::string& text)
 {
   std::string file;
@@ -234,7 +261,9 @@ void write_seeds(const std::filesystem::path& folder)
        "\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3\n0,0,0\n0,0,0\n"},
       {"GOCAD TSURF 1\nHEADER {\nname: a\n}\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\nEND\n"}};
   std::vector<std::vector<std::string>> others = {
-      pcd_files(), {npy_file(2), npy_file(3)}, {las_file(2), las_file(4)}, {depth_image()}, {packed("1 2 3\n4 5 6\n")}};
+      pcd_files(),       {npy_file(2), npy_file(3)}, {las_file(2), las_file(4)},
+      {depth_image()},   {packed("1 2 3\n4 5 6\n")}, {gltf_file(true)},
+      {gltf_file(false)}};
   scans.insert(scans.end(), others.begin(), others.end());
   for (std::size_t i = 0; i < scans.size(); ++i)
     for (std::size_t k = 0; k < scans[i].size(); ++k)

@@ -51,6 +51,7 @@
 #include <CGAL/Crude_registration/reduction/surface_types.h>
 #include <CGAL/Crude_registration/register_meshes.h>
 #include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/register_scans_with_scale.h>
 #include <CGAL/Crude_registration/sampling/estimate_sensor.h>
 #include <CGAL/Crude_registration/sampling/join_points.h>
 #include <CGAL/Crude_registration/sampling/sampling_distance.h>

@@ -61,11 +61,11 @@ inline Similarity to_similarity(const Rigid_motion& affine)
 and normals are turned; all else stays as it is, byte by byte: colours, intensities, texture coordinates, faces,
 comments, separators.
 
-What `read_scan()` reads is written, but for depth images, LAS, GOCAD and VTP files and those whose coordinates are
-whole numbers. Normals are those that `read_scan()` finds, and those of OBJ (`vn`), OFF and STL. What the file says of
-its sensor is moved, too: `obj_info` of PLY, `VIEWPOINT` of PCD if it is set, or if it is that of a range image. In PTX
-files that is all, as their samples are in the scanner's frame; `FILE.ptx#2` is written without the other scans of the
-file.
+What `read_scan()` reads is written, but for depth images, LAS, glTF, GOCAD and VTP files and those whose coordinates
+are whole numbers. Normals are those that `read_scan()` finds, and those of OBJ (`vn`), OFF and STL. What the file says
+of its sensor is moved, too: `obj_info` of PLY, `VIEWPOINT` of PCD if it is set, or if it is that of a range image. In
+PTX files that is all, as their samples are in the scanner's frame; `FILE.ptx#2` is written without the other scans of
+the file.
 
 Floats stay floats, doubles doubles; text has the shortest numbers that are read back the same, as doubles where it does
 not say `float`. Samples that are missing (see `Scan_file`) stay as they are. The file is written whole or not at all;

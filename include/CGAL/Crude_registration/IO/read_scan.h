@@ -21,6 +21,7 @@
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/Sensor.h>
 
+#include <CGAL/IO/Color.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -66,6 +67,10 @@ struct Scan_file
   /// or null where there is none for a point. Empty where the file has no normals, and for meshes.
   std::vector<Vector_3> normals;
 
+  /// the colours that the file has for its points, for the samples of its range image or for the vertices of its mesh,
+  /// in their order. Empty where the file has none.
+  std::vector<CGAL::IO::Color> colors;
+
   /// what the file says of the sensor that saw its points or its mesh; a range image has its own.
   Sensor<Kernel> sensor;
 
@@ -81,13 +86,17 @@ struct Scan_file
 
 \brief reads a range scan from a file, whatever it holds.
 
-The format is told by the first bytes of the file where these are unmistakable (PLY, OFF, PCD, NPY, PNG, LAS), else by
+The format is told by the first bytes of the file where these are unmistakable (PLY, OFF, PCD, NPY, PNG, LAS, binary
+glTF), else by
 the end of its name:
 
 - `.ply` with an `element range_grid`: a range image, see `read_range_image()`; with faces: a mesh; else points; the
   `obj_info` of a sensor is read for all of them;
 - `.off`, `.obj`, `.stl`, `.ts` and, where the program was built with VTK, `.vtp`: a mesh, or points where there is no
 face;
+- `.glb` and `.gltf` (glTF 2.0), where the program was built with nlohmann-json: the triangles that the nodes of the
+  scene place, as one mesh, in which vertices that are equal are one; or points where there is no triangle. What is
+  compressed (Draco, meshopt) or sparse is not read;
 - `.ptx`: a range image, moved to the world as the file says, with a perspective sensor at the scanner's place. Of
 several scans in a file, `FILE.ptx#2` is the second one's name;
 - `.pcd` (ascii, binary and binary_compressed): a range image where the points are organised, else points. The sensor is
@@ -112,7 +121,10 @@ line before the points may hold their number alone.
 
 Each of these may be packed by gzip (`.xyz.gz`), where the program was built with Boost.Iostreams.
 
-Normals are read from PLY (`nx`, `ny`, `nz`), PCD (`normal_x`, ...), arrays of n x 6 and text.
+Colours are read from PLY (`red`, `green`, `blue`), PCD (`rgb`, `rgba`), PTX, LAS, glTF (`COLOR_0`), OBJ (three numbers
+behind the coordinates) and OFF (`COFF`); parts are from 0 to 255, those of 16 bits and shares are rounded to that.
+
+Normals are read from PLY (`nx`, `ny`, `nz`), PCD (`normal_x`, ...), the points of glTF, arrays of n x 6 and text.
 
 Where a mesh's faces do not form an oriented manifold, faces are turned and vertices are split until they do; faces that
 name a vertex twice and vertices without a face are left out.
@@ -132,6 +144,8 @@ Scan_file<Kernel> read_scan(const std::string& filename, const Depth_camera& cam
   internal::Flat_scan_file flat = internal::read_flat_scan(filename, camera);
   Scan_file<Kernel> scan;
   scan.normals = internal::to_kernel_vectors<Kernel>(flat.normals);
+  scan.colors.reserve(flat.colors.size());
+  for (const internal::Color& c : flat.colors) scan.colors.emplace_back(c[0], c[1], c[2]);
   scan.missing = flat.missing;
   scan.notes = std::move(flat.notes);
   if (flat.kind != internal::Flat_scan_file::RANGE_IMAGE) scan.sensor = internal::to_sensor<Kernel>(flat.sensor);

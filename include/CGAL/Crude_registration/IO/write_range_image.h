@@ -17,12 +17,16 @@
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/Range_image.h>
 
+#include <CGAL/IO/Color.h>
 #include <CGAL/number_utils.h>
 
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <ostream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -50,10 +54,19 @@ same, coordinates and a known sensor included.
 
 The sensor is written as `obj_info viewpoint x y z` or `obj_info viewing_direction x y z`. The state of `out` tells
 whether writing succeeded.
+
+\param out the stream
+\param image the range image
+\param colors those of its samples, in their order, which `read_scan()` reads back; none are written if it is empty
+
+\throws std::invalid_argument if there are colours, but not as many as samples
 */
 template <class Kernel>
-void write_range_image(std::ostream& out, const Range_image<Kernel>& image)
+void write_range_image(std::ostream& out, const Range_image<Kernel>& image,
+                       const std::vector<CGAL::IO::Color>& colors = {})
 {
+  if (!colors.empty() && colors.size() != image.points().size())
+    throw std::invalid_argument("write_range_image: there are not as many colors as samples");
   out << "ply\nformat ascii 1.0\n"
       << "obj_info num_cols " << std::to_string(image.columns()) << "\n"
       << "obj_info num_rows " << std::to_string(image.rows()) << "\n";
@@ -69,10 +82,12 @@ void write_range_image(std::ostream& out, const Range_image<Kernel>& image)
   }
   out << "element vertex " << std::to_string(image.points().size()) << "\n"
       << "property double x\nproperty double y\nproperty double z\n"
+      << (colors.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n")
       << "element range_grid " << std::to_string(image.grid().size()) << "\n"
       << "property list uchar int vertex_indices\nend_header\n";
-  for (const auto& p : image.points()) {
-    internal::write_coordinates(out, p);
+  for (std::size_t i = 0; i < image.points().size(); ++i) {
+    internal::write_coordinates(out, image.points()[i]);
+    for (std::size_t k = 0; !colors.empty() && k < 3; ++k) out << ' ' << std::to_string(int(colors[i][k]));
     out.put('\n');
   }
   for (const auto i : image.grid())
@@ -85,14 +100,20 @@ void write_range_image(std::ostream& out, const Range_image<Kernel>& image)
 
 \brief writes a range image to a file, whole or not at all: an error leaves a file of that name as it was.
 
-\throws IO_error if the file cannot be written.
+\param filename the name of the file
+\param image the range image
+\param colors those of its samples, in their order; none are written if it is empty
 
-\sa `write_range_image(std::ostream&, const Range_image<Kernel>&)`
+\throws IO_error if the file cannot be written.
+\throws std::invalid_argument if there are colours, but not as many as samples
+
+\sa `write_range_image(std::ostream&, const Range_image<Kernel>&, const std::vector<CGAL::IO::Color>&)`
 */
 template <class Kernel>
-void write_range_image(const std::string& filename, const Range_image<Kernel>& image)
+void write_range_image(const std::string& filename, const Range_image<Kernel>& image,
+                       const std::vector<CGAL::IO::Color>& colors = {})
 {
-  write_file(filename, [&](std::ostream& out) { write_range_image(out, image); });
+  write_file(filename, [&](std::ostream& out) { write_range_image(out, image, colors); });
 }
 
 } // namespace Crude_registration

@@ -16,6 +16,8 @@
 
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -24,6 +26,16 @@
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
+
+// Red, green and blue.
+using Color = std::array<std::uint8_t, 3>;
+
+// A part of a colour, of which so much is the largest.
+inline std::uint8_t part_of_color(double value, double largest)
+{
+  const double part = 255 * (value / largest) + 0.5;
+  return part > 0 ? static_cast<std::uint8_t>((std::min)(part, 255.)) : std::uint8_t(0); // and where it is no number
+}
 
 struct Flat_scan_file
 {
@@ -41,6 +53,7 @@ struct Flat_scan_file
   std::vector<std::int32_t> grid;                 // row by row; -1 where there is no sample
   Flat_sensor sensor;                             // as the file says, or as its grid tells
   std::vector<Vector> normals;                    // of points and samples, as the file has them: one each, or none
+  std::vector<Color> colors;                      // of points, samples or vertices: one each, or none
   std::size_t missing = 0;                        // points of the file that are no samples
   std::vector<std::string> notes;                 // sentences on how the file was understood
 };

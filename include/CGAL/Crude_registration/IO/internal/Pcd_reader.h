@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -104,6 +105,16 @@ public:
 private:
   using Values = std::array<double, 6>; // of a point and its normal
 
+  // The four bytes of `rgb` or `rgba` as a number, as it is packed: blue is the least.
+  struct Packed_color
+  {
+    std::uint32_t bits = 0;
+    Color color() const
+    {
+      return {std::uint8_t(bits >> 16 & 255), std::uint8_t(bits >> 8 & 255), std::uint8_t(bits & 255)};
+    }
+  };
+
   // --- header -------------------------------------------------------------------------------------------------------
 
   void read_header()
@@ -138,6 +149,7 @@ private:
       f.name = std::string(m_cursor.word());
       for (std::size_t i = 0; i < names.size(); ++i)
         if (names[i] == f.name) f.role = i;
+      if (f.name == "rgb" || f.name == "rgba") m_color = m_fields.size();
       m_fields.push_back(f);
     }
   }
@@ -196,6 +208,7 @@ private:
     }
     if (!found[0] || !found[1] || !found[2]) m_cursor.fail("the points have no fields x, y and z");
     m_has_normals = found[3] && found[4] && found[5];
+    if (m_color != none && (m_fields[m_color].size != 4 || m_fields[m_color].count != 1)) m_color = none;
     if (m_columns == none) m_columns = m_points;
     if (m_columns == none) m_cursor.fail("the header has neither WIDTH nor POINTS");
     if (m_rows > 0 && m_columns > std::size_t((std::numeric_limits<std::int32_t>::max)()) / m_rows)
@@ -213,14 +226,30 @@ private:
     for (std::size_t i = 0; i < m_points; ++i) {
       if (!m_cursor.next_line()) throw IO_error(m_file, m_cursor.next_line_number(), ends_after(i));
       Values values{};
+      Packed_color color;
       for (const Field& f : m_fields)
         if (f.role != none) values[f.role] = m_cursor.number(f.name.c_str());
+        else if (is_color(f)) color = packed_color(m_cursor.number(f.name.c_str()), f);
         else
           for (std::size_t k = 0; k < f.count; ++k)
             if (m_cursor.word().empty()) m_cursor.fail("fewer values than the header declares");
       if (m_cursor.has_word()) m_cursor.fail("more values than the header declares");
-      add(values, scan);
+      add(values, color, scan);
     }
+  }
+
+  bool is_color(const Field& f) const { return m_color != none && &f == &m_fields[m_color]; }
+
+  static Packed_color packed_color(double number, const Field& f)
+  {
+    Packed_color color;
+    if (f.type == 'F') {
+      const float as_float = static_cast<float>(number);
+      std::memcpy(&color.bits, &as_float, sizeof color.bits);
+    } else if (number >= -2147483648. && number < 4294967296.) {
+      color.bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(number));
+    }
+    return color;
   }
 
   std::string ends_after(std::size_t i) const
@@ -236,9 +265,11 @@ private:
     if (m_has_normals) scan.normals.reserve(m_points);
     for (std::size_t i = 0; i < m_points; ++i) {
       Values values{};
+      Packed_color color;
       for (const Field& f : m_fields)
         if (f.role != none) values[f.role] = value_at(body, place(i, f), f);
-      add(values, scan);
+      if (m_color != none) color.bits = number_at<std::uint32_t>(body, place(i, m_fields[m_color]));
+      add(values, color, scan);
     }
   }
 
@@ -277,8 +308,9 @@ private:
     }
   }
 
-  void add(const Values& v, Flat_scan_file& scan) const
+  void add(const Values& v, const Packed_color& color, Flat_scan_file& scan) const
   {
+    if (m_color != none) scan.colors.push_back(color.color());
     scan.points.emplace_back(v[0], v[1], v[2]);
     if (m_has_normals) scan.normals.push_back(unit_normal(Vector(v[3], v[4], v[5])));
   }
@@ -288,7 +320,8 @@ private:
   Text_cursor m_cursor;
   std::vector<Field> m_fields;
   std::size_t m_columns = none, m_rows = 1, m_points = none, m_point_size = 0;
-  std::size_t m_body = 0; // where the data starts, in bytes
+  std::size_t m_body = 0;     // where the data starts, in bytes
+  std::size_t m_color = none; // the field of the colour
   bool m_has_normals = false;
   std::array<std::string_view, 7> m_viewpoint_words;
   std::array<double, 7> m_viewpoint = {0, 0, 0, 1, 0, 0, 0}; // place, and turn as a quaternion

@@ -49,6 +49,9 @@ enum class Ply_role
   NX,
   NY,
   NZ,
+  RED,
+  GREEN,
+  BLUE,
   INDICES
 };
 

@@ -15,6 +15,7 @@
 // Reads PLY, with a range grid, faces or points alone.
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/IO/internal/Flat_scan_file.h>
 #include <CGAL/Crude_registration/IO/internal/Ply_elements.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
 #include <CGAL/Crude_registration/IO/internal/binary_numbers.h>
@@ -39,6 +40,7 @@ struct Ply_contents
 {
   std::vector<std::array<double, 3>> points;  // may be NaN or infinite
   std::vector<std::array<double, 3>> normals; // one a point, or none
+  std::vector<Color> colors;                  // one a point, or none
   bool has_grid = false;                      // is there an `element range_grid`?
   std::size_t columns = 0, rows = 0;
   std::vector<std::int32_t> grid; // row by row; -1 where there is no sample
@@ -226,10 +228,8 @@ private:
             throw IO_error(m_file, e.line, std::string("the vertices have no property '") + name + "'");
           p->role = role;
         }
-        const std::array<Ply_property*, 3> normal = {e.find("nx"), e.find("ny"), e.find("nz")};
-        m_has_normals = std::all_of(normal.begin(), normal.end(), [](auto* p) { return p != nullptr && !p->is_list; });
-        const std::array<Ply_role, 3> roles = {Ply_role::NX, Ply_role::NY, Ply_role::NZ};
-        for (std::size_t i = 0; m_has_normals && i < 3; ++i) normal[i]->role = roles[i];
+        m_has_normals = assign(e, {"nx", "ny", "nz"}, Ply_role::NX);
+        m_has_colors = assign(e, {"red", "green", "blue"}, Ply_role::RED);
       } else if (e.name == "range_grid" || e.name == "face") {
         Ply_property* p = e.find("vertex_indices");
         if (p == nullptr) p = e.find("vertex_index");
@@ -254,12 +254,28 @@ private:
     if (!has_vertices) cursor.fail("the header has no 'element vertex'");
   }
 
+  // Gives three properties roles that follow each other, if they are all there.
+  static bool assign(Ply_element& e, const std::array<const char*, 3>& names, Ply_role first)
+  {
+    std::array<Ply_property*, 3> found;
+    for (std::size_t i = 0; i < 3; ++i) found[i] = e.find(names[i]);
+    if (!std::all_of(found.begin(), found.end(), [](auto* p) { return p != nullptr && !p->is_list; })) return false;
+    for (std::size_t i = 0; i < 3; ++i) found[i]->role = static_cast<Ply_role>(static_cast<std::size_t>(first) + i);
+    return true;
+  }
+
+  // Of a part of a colour: floats are shares.
+  static double largest_color(Ply_type type)
+  {
+    return type == Ply_type::FLOAT32 || type == Ply_type::FLOAT64 ? 1 : type == Ply_type::UINT16 ? 65535 : 255;
+  }
+
   // --- body ---------------------------------------------------------------------------------------------------------
 
   template <class Source>
   void read_body(Source& source)
   {
-    std::array<double, 6> xyz = {0, 0, 0, 0, 0, 0}; // and the normal
+    std::array<double, 9> xyz{}; // and the normal, and the colour in shares of the largest
     std::vector<long long> indices;
     for (const Ply_element& e : m_elements) {
       if (e.properties.empty()) continue;
@@ -268,13 +284,15 @@ private:
       const std::size_t expected = static_cast<std::size_t>(std::min<std::uint64_t>(e.count, m_data.size()));
       if (is_vertex) m_contents.points.reserve(expected);
       if (is_vertex && m_has_normals) m_contents.normals.reserve(expected);
+      if (is_vertex && m_has_colors) m_contents.colors.reserve(expected);
       if (is_grid) m_contents.grid.reserve(expected);
       if (is_face) m_contents.faces.reserve(expected);
       for (std::uint64_t i = 0; i < e.count; ++i) {
         source.begin_element(e, i);
         for (const Ply_property& p : e.properties) {
-          if (p.role >= Ply_role::X && p.role <= Ply_role::NZ)
-            xyz[static_cast<std::size_t>(p.role) - static_cast<std::size_t>(Ply_role::X)] = source.number(p);
+          if (p.role >= Ply_role::X && p.role <= Ply_role::BLUE)
+            xyz[static_cast<std::size_t>(p.role) - static_cast<std::size_t>(Ply_role::X)] =
+                source.number(p) / (p.role >= Ply_role::RED ? largest_color(p.type) : 1);
           else if (p.is_list) read_list(source, p, indices);
           else source.skip(p);
         }
@@ -282,6 +300,8 @@ private:
         if (is_vertex) {
           m_contents.points.push_back({xyz[0], xyz[1], xyz[2]});
           if (m_has_normals) m_contents.normals.push_back({xyz[3], xyz[4], xyz[5]});
+          if (m_has_colors)
+            m_contents.colors.push_back({part_of_color(xyz[6], 1), part_of_color(xyz[7], 1), part_of_color(xyz[8], 1)});
         } else if (is_grid) {
           if (indices.size() > 1) source.fail("a cell of the range_grid holds more than one vertex");
           m_contents.grid.push_back(indices.empty() ? -1 : static_cast<std::int32_t>(indices[0]));
@@ -335,7 +355,7 @@ private:
   std::vector<Ply_element> m_elements;
   std::vector<Sensor_words> m_sensor_words;
   std::uint64_t m_vertex_count = 0;
-  bool m_has_normals = false;
+  bool m_has_normals = false, m_has_colors = false;
   std::size_t m_body = 0;      // where the body starts, in bytes
   std::size_t m_body_line = 0; // and in lines
   Ply_contents m_contents;

@@ -55,6 +55,7 @@ inline void take_out_missing(Flat_scan_file& scan, bool origin, const std::strin
     if (!new_index.empty()) new_index[i] = static_cast<std::int32_t>(kept);
     scan.points[kept] = p;
     if (!scan.normals.empty()) scan.normals[kept] = scan.normals[i];
+    if (!scan.colors.empty()) scan.colors[kept] = scan.colors[i];
     ++kept;
   }
   if (kept == 0)
@@ -64,6 +65,7 @@ inline void take_out_missing(Flat_scan_file& scan, bool origin, const std::strin
   scan.missing += n - kept;
   scan.points.resize(kept);
   if (!scan.normals.empty()) scan.normals.resize(kept);
+  if (!scan.colors.empty()) scan.colors.resize(kept);
   for (std::int32_t& cell : scan.grid)
     if (cell >= 0) cell = new_index[static_cast<std::size_t>(cell)];
 }

@@ -109,7 +109,7 @@ inline Moved_file moved_ply(const std::string& data, const Similarity& motion, c
   bool missing = false;
   {
     const Ply_contents ply = read_ply(data, file);
-    if (!ply.has_grid) missing = origin_is_missing(Polygon_soup{ply.points, ply.faces, {}});
+    if (!ply.has_grid) missing = origin_is_missing(Polygon_soup{ply.points, ply.faces, {}, {}});
   }
   Ply_reader reader(data, file);
   reader.read_head();
@@ -297,7 +297,8 @@ inline void check_format(Scan_format format, const std::string& file)
   const char* what = nullptr;
   if (format == Scan_format::PNG) what = "a depth image has no coordinates of points";
   if (format == Scan_format::LAS) what = "LAS keeps whole numbers in a grid along the axes";
-  if (format == Scan_format::E57 || format == Scan_format::GOCAD || format == Scan_format::VTP)
+  if (format == Scan_format::E57 || format == Scan_format::GOCAD || format == Scan_format::VTP ||
+      format == Scan_format::GLTF)
     what = "this format is not written";
   if (what != nullptr)
     throw IO_error(file, std::string("the file cannot be written moved: ") + what + "; convert it to PLY first");

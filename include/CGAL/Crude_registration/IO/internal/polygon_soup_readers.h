@@ -15,6 +15,7 @@
 // Reads polygons: OFF, OBJ and STL.
 
 #include <CGAL/Crude_registration/IO/IO_error.h>
+#include <CGAL/Crude_registration/IO/internal/Flat_scan_file.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
 
 #include <array>
@@ -40,8 +41,33 @@ struct Polygon_soup
   std::vector<std::array<double, 3>> points;
   std::vector<std::vector<std::size_t>> polygons;
   std::vector<std::array<double, 3>> normals; // of the points, one each, or none
+  std::vector<Color> colors;                  // the same
   std::size_t missing = 0;                    // points that are left out
 };
+
+// Three or more words behind the coordinates of a vertex as its colour: shares where one of them is no whole number, or
+// all are 0 or 1; else up to 255.
+inline void read_color(Text_cursor& cursor, Polygon_soup& soup)
+{
+  std::array<double, 3> parts{};
+  bool are_shares = false, are_small = true;
+  for (double& part : parts) {
+    if (!cursor.has_word()) return;
+    const std::string_view rest = cursor.rest();
+    are_shares = are_shares || rest.substr(0, rest.find_first_of(" \t")).find('.') != std::string_view::npos;
+    part = cursor.number("a part of the colour");
+    are_small = are_small && part <= 1;
+  }
+  const double largest = are_shares || are_small ? 1 : 255;
+  soup.colors.push_back(
+      {part_of_color(parts[0], largest), part_of_color(parts[1], largest), part_of_color(parts[2], largest)});
+}
+
+// Colours are of all vertices, or of none.
+inline void drop_partial_colors(Polygon_soup& soup)
+{
+  if (soup.colors.size() != soup.points.size()) soup.colors.clear();
+}
 
 // OFF, with the optional prefixes of its keyword for what else stands in a vertex's line (which is passed over).
 inline Polygon_soup read_off(std::string_view text, const std::string& file)
@@ -56,8 +82,10 @@ inline Polygon_soup read_off(std::string_view text, const std::string& file)
   std::string_view keyword = cursor.word();
   const std::string shown(keyword.substr(0, 40));
   if (keyword.substr(0, 2) == "ST") keyword.remove_prefix(2);
-  if (keyword.substr(0, 1) == "C") keyword.remove_prefix(1);
-  if (keyword.substr(0, 1) == "N") keyword.remove_prefix(1);
+  const bool has_colors = keyword.substr(0, 1) == "C";
+  if (has_colors) keyword.remove_prefix(1);
+  const bool has_normals = keyword.substr(0, 1) == "N";
+  if (has_normals) keyword.remove_prefix(1);
   if (keyword != "OFF") cursor.fail("not an OFF file of points in space: '" + shown + "'");
   if (cursor.has_word() && cursor.rest().substr(0, 6) == "BINARY") cursor.fail("binary OFF is not read");
   if (!cursor.has_word() && !next_data_line()) cursor.fail("the file ends before the numbers of vertices and faces");
@@ -69,7 +97,10 @@ inline Polygon_soup read_off(std::string_view text, const std::string& file)
     if (!next_data_line())
       cursor.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(vertices) + " vertices");
     soup.points.push_back(read_coordinates(cursor));
+    if (has_normals) read_coordinates(cursor);
+    if (has_colors) read_color(cursor, soup);
   }
+  drop_partial_colors(soup);
   for (long long i = 0; i < faces; ++i) {
     if (!next_data_line())
       cursor.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(faces) + " faces");
@@ -96,6 +127,7 @@ inline Polygon_soup read_obj(std::string_view text, const std::string& file)
     const std::string_view keyword = cursor.word();
     if (keyword == "v") {
       soup.points.push_back(read_coordinates(cursor));
+      read_color(cursor, soup);
     } else if (keyword == "f") {
       soup.polygons.emplace_back();
       while (cursor.has_word()) {
@@ -113,6 +145,7 @@ inline Polygon_soup read_obj(std::string_view text, const std::string& file)
       }
     }
   }
+  drop_partial_colors(soup);
   return soup;
 }
 

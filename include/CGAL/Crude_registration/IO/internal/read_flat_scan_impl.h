@@ -21,6 +21,7 @@
 #include <CGAL/Crude_registration/IO/internal/polygon_soup_readers.h>
 #include <CGAL/Crude_registration/IO/internal/read_depth_image.h>
 #include <CGAL/Crude_registration/IO/internal/read_flat_scan.h>
+#include <CGAL/Crude_registration/IO/internal/read_gltf.h>
 #include <CGAL/Crude_registration/IO/internal/read_las.h>
 #include <CGAL/Crude_registration/IO/internal/read_npy.h>
 #include <CGAL/Crude_registration/IO/internal/read_ptx.h>
@@ -127,6 +128,16 @@ inline Flat_scan_file read_pcd(const std::string& data, const std::string& file)
   return scan;
 }
 
+// Vertices that are split keep their colour.
+struct Color_copier : CGAL::Polygon_mesh_processing::Default_orientation_visitor
+{
+  std::vector<Color>* colors;
+  void duplicated_vertex(std::size_t v, std::size_t)
+  {
+    if (!colors->empty()) colors->push_back(Color(colors->at(v)));
+  }
+};
+
 // Polygons that name a vertex that is NaN or infinite, that name one twice or have fewer than three are left out, as
 // are points without a polygon; where the others do not make a manifold with consistent faces, CGAL turns them and
 // splits vertices until they do.
@@ -139,6 +150,7 @@ inline Flat_scan_file to_scan(Polygon_soup&& soup, const std::string& file)
   if (soup.polygons.empty()) {
     scan.points = to_vectors(soup.points);
     scan.normals = to_normals(soup.normals);
+    scan.colors = std::move(soup.colors);
     return to_scan(std::move(scan), file);
   }
   std::vector<bool> is_missing(soup.points.size(), false);
@@ -169,11 +181,15 @@ inline Flat_scan_file to_scan(Polygon_soup&& soup, const std::string& file)
     new_index[v] = points.size();
     const auto& p = soup.points[v];
     points.emplace_back(p[0], p[1], p[2]);
+    if (!soup.colors.empty()) scan.colors.push_back(soup.colors[v]);
   }
   for (auto& polygon : soup.polygons)
     for (std::size_t& v : polygon) v = new_index[v];
 
-  if (!PMP::is_polygon_soup_a_polygon_mesh(soup.polygons)) PMP::orient_polygon_soup(points, soup.polygons);
+  if (!PMP::is_polygon_soup_a_polygon_mesh(soup.polygons)) {
+    const Color_copier copier{{}, &scan.colors};
+    PMP::orient_polygon_soup(points, soup.polygons, CGAL::parameters::visitor(copier));
+  }
   scan.kind = Flat_scan_file::MESH;
   for (const Cartesian::Point_3& p : points) scan.points.emplace_back(p.x(), p.y(), p.z());
   scan.polygons = std::move(soup.polygons);
@@ -199,6 +215,7 @@ inline Flat_scan_file to_flat_range_image(Ply_contents&& ply, const std::string&
   scan.rows = ply.rows;
   scan.grid = std::move(ply.grid);
   scan.normals = to_normals(ply.normals);
+  scan.colors = std::move(ply.colors);
   take_out_missing(scan, false, file);
   scan.sensor = sensor_of(ply);
   if (scan.sensor.kind == Flat_sensor::UNKNOWN) scan.sensor = sensor_of_grid(scan);
@@ -208,8 +225,8 @@ inline Flat_scan_file to_flat_range_image(Ply_contents&& ply, const std::string&
 inline Flat_scan_file to_scan(Ply_contents&& ply, const std::string& file)
 {
   if (ply.has_grid) return to_flat_range_image(std::move(ply), file);
-  Flat_scan_file scan =
-      to_scan(Polygon_soup{std::move(ply.points), std::move(ply.faces), std::move(ply.normals)}, file);
+  Flat_scan_file scan = to_scan(
+      Polygon_soup{std::move(ply.points), std::move(ply.faces), std::move(ply.normals), std::move(ply.colors)}, file);
   scan.sensor = sensor_of(ply);
   return scan;
 }
@@ -290,6 +307,8 @@ CGAL_CRUDE_REGISTRATION_INLINE Flat_scan_file read_flat_scan(const std::string& 
   case Scan_format::E57:
     throw IO_error(filename,
                    "E57 is not read: convert the scan to PTX or PLY, with CloudCompare or the scanner's program");
+  case Scan_format::GLTF:
+    return to_scan(read_gltf(data, filename), filename);
   case Scan_format::OBJ:
     return to_scan(read_obj(data, filename), filename);
   case Scan_format::STL:

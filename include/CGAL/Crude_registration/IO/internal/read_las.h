@@ -18,6 +18,7 @@
 #include <CGAL/Crude_registration/IO/internal/Flat_scan_file.h>
 #include <CGAL/Crude_registration/IO/internal/binary_numbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -61,7 +62,25 @@ inline Flat_scan_file read_las(std::string_view data, const std::string& file)
   if ((data.size() - start) / record < count)
     fail(data.size(), "the file ends after " + std::to_string((data.size() - start) / record) + " of " +
                           std::to_string(count) + " points");
+  // Where the colour stands in a point of each format (tables 8 to 17), if it has one; numbers of 16 bits, which some
+  // programs fill up to 255 only.
+  const std::size_t color_at = format == 2                                  ? 20
+                               : format == 3 || format == 5                 ? 28
+                               : format == 7 || format == 8 || format == 10 ? 30
+                                                                            : 0;
+  const bool has_colors = color_at > 0 && record >= color_at + 6;
+  const auto color_part = [&](std::size_t point, std::size_t k) {
+    return double(number_at<std::uint16_t>(data, start + point * record + color_at + 2 * k));
+  };
+  double largest = 0;
+  for (std::size_t i = 0; has_colors && i < count; ++i)
+    for (std::size_t k = 0; k < 3; ++k) largest = (std::max)(largest, color_part(i, k));
   Flat_scan_file scan;
+  if (largest > 0) scan.colors.reserve(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; largest > 0 && i < count; ++i) {
+    const auto part = [&](std::size_t k) { return part_of_color(color_part(i, k), largest > 255 ? 65535 : 255); };
+    scan.colors.push_back({part(0), part(1), part(2)});
+  }
   scan.points.reserve(static_cast<std::size_t>(count));
   for (std::size_t at = start, i = 0; i < count; ++i, at += record) {
     const Vector whole(number_at<std::int32_t>(data, at), number_at<std::int32_t>(data, at + 4),

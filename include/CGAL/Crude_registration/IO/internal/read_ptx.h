@@ -129,6 +129,7 @@ private:
     scan.columns = m_columns;
     scan.rows = m_rows;
     scan.grid.assign(m_columns * m_rows, -1);
+    bool have_colors = true;
     for (std::size_t column = 0; column < m_columns; ++column)
       for (std::size_t row = 0; row < m_rows; ++row) {
         next_sample(column * m_rows + row);
@@ -140,10 +141,25 @@ private:
         }
         scan.grid[row * m_columns + column] = static_cast<std::int32_t>(scan.points.size());
         scan.points.push_back(m_world_from_scanner(p));
+        Color color;
+        if (have_colors && (have_colors = read_color(color))) scan.colors.push_back(color);
       }
+    if (!have_colors) scan.colors.clear();
     if (scan.points.empty()) throw IO_error(m_cursor.file(), "the range image has no samples");
     scan.sensor = {Flat_sensor::PERSPECTIVE, m_world_from_scanner.translation};
     return scan;
+  }
+
+  // Behind the coordinates of a sample: the intensity, then red, green and blue up to 255, if they are there.
+  bool read_color(Color& color)
+  {
+    if (!m_cursor.has_word()) return false;
+    m_cursor.number("the intensity");
+    for (std::uint8_t& part : color) {
+      if (!m_cursor.has_word()) return false;
+      part = part_of_color(m_cursor.number("a part of the colour"), 255);
+    }
+    return true;
   }
 
   // is there another scan? Its first line is the cursor's then.

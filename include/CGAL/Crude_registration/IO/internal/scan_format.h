@@ -85,6 +85,7 @@ enum class Scan_format
   PNG,
   LAS,
   E57,
+  GLTF,
   OBJ,
   STL,
   GOCAD,
@@ -107,6 +108,7 @@ inline Scan_format format_of(const Named_contents& contents)
   if (starts_with("\x89PNG")) return Scan_format::PNG;
   if (extension == ".las" || extension == ".laz" || starts_with("LASF")) return Scan_format::LAS;
   if (extension == ".e57" || starts_with("ASTM-E57")) return Scan_format::E57;
+  if (extension == ".glb" || extension == ".gltf" || starts_with("glTF")) return Scan_format::GLTF;
   if (extension == ".obj") return Scan_format::OBJ;
   if (extension == ".stl") return Scan_format::STL;
   if (extension == ".ts") return Scan_format::GOCAD;

@@ -122,6 +122,19 @@ public:
     return m_kind == Flat_sensor::PERSPECTIVE ? Vector_f(p - m_viewpoint) : Vector_f(m_axes.row(2));
   }
 
+  // That of the samples in another unit of length. What a perspective sensor sees has angles across, and depths.
+  void scale(float factor)
+  {
+    m_viewpoint *= factor;
+    if (m_kind == Flat_sensor::ORTHOGRAPHIC) {
+      m_low_x *= factor;
+      m_low_y *= factor;
+      m_scale /= factor;
+    }
+    for (float& depth : m_depths)
+      if (std::abs(depth) < (std::numeric_limits<float>::max)()) depth *= factor;
+  }
+
   // All that it consists of, `buffer` being it: f(part), for a writer and a reader.
   template <class Buffer, class Function>
   static void for_each_part(Buffer& buffer, const Function& f)

@@ -131,6 +131,13 @@ public:
     return s != empty ? int(s) : none;
   }
 
+  // That of the surfels in another unit of length.
+  void scale(float factor)
+  {
+    m_low *= factor;
+    m_scale /= factor;
+  }
+
   // All that it consists of, `field` being it: f(part), for a writer and a reader.
   template <class Field, class Function>
   static void for_each_part(Field& field, const Function& f)
