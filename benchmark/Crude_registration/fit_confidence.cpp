@@ -246,18 +246,8 @@ using Logit = benchmark_tools::Conditional_logit<5>;
 Logit::Features features(const CRI::Pose_evidence& e, double surfels)
 {
   Logit::Features f;
-  const double unit = std::sqrt(e.surfels / (e.surfels + surfels)), root = std::sqrt((std::max)(e.nats, 0.));
-  f << unit * root, e.residual, std::sqrt(e.violations), unit * (root - e.others), 1;
-  return f;
-}
-
-// As chance is between any two scans.
-using Usual_logit = benchmark_tools::Conditional_logit<4>;
-
-Usual_logit::Features usual_features(const CRI::Pose_evidence& e, double surfels)
-{
-  Usual_logit::Features f;
-  f << std::sqrt(e.surfels / (e.surfels + surfels) * (std::max)(e.usual, 0.)), e.residual, std::sqrt(e.violations), 1;
+  f << std::sqrt(e.surfels / (e.surfels + surfels) * (std::max)(e.nats, 0.)), e.residual, std::sqrt(e.violations),
+      std::sqrt((std::max)(e.usual, 0.)) - std::sqrt(e.rival), 1;
   return f;
 }
 
@@ -306,19 +296,6 @@ Fit fit(const std::vector<Choice>& choices, const Coefficients& tables)
     best.coefficients.surfels = surfels;
     set(e, best.coefficients);
   }
-  Usual_logit usual;
-  for (const Choice& choice : choices) {
-    std::vector<Usual_logit::Features> poses;
-    for (const auto& p : choice.poses) poses.push_back(usual_features(p, best.coefficients.surfels));
-    usual.add_choice(poses, choice.right, choice.setting);
-  }
-  Usual_logit::Estimate start;
-  start.lapse = best.estimate.lapse;
-  const Usual_logit::Estimate e = usual.fit(no_setting, start, false);
-  best.coefficients.usual_slope = e.coefficients[0];
-  best.coefficients.usual_residual = e.coefficients[1];
-  best.coefficients.usual_violations = e.coefficients[2];
-  best.coefficients.usual_offset = e.coefficients[3];
   return best;
 }
 
@@ -412,16 +389,13 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
   list("wrong_fit", c.wrong_fit, 12);
   out << "  // log( P(right) / P(none) ) = slope sqrt(n / (n + surfels) evidence a probe) + residual (RMS of the "
          "probes that agree,\n"
-         "  // in tolerances) + violations sqrt(probes in free space a probe that agrees) + lead (the root, less "
-         "the\n"
-         "  // mean of those of the other poses) + offset; n: of the scan with fewer.\n"
+         "  // in tolerances) + violations sqrt(probes in free space a probe that agrees) + lead (root of the usual "
+         "evidence,\n"
+         "  // less that of the best candidate elsewhere) + offset; n: of the scan with fewer.\n"
          "  double surfels = "
       << c.surfels << ";\n  double slope = " << c.slope << ";\n  double residual = " << c.residual
       << ";\n  double violations = " << c.violations << ";\n  double lead = " << c.lead
       << ";\n  double offset = " << c.offset
-      << ";\n  // The same by the usual evidence, whatever the other poses are.\n  double usual_slope = "
-      << c.usual_slope << ";\n  double usual_residual = " << c.usual_residual
-      << ";\n  double usual_violations = " << c.usual_violations << ";\n  double usual_offset = " << c.usual_offset
       << ";\n  // Of the answers that obey no such law.\n  double lapse = " << c.lapse
       << ";\n};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
          "#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n";

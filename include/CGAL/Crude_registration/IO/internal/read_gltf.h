@@ -162,8 +162,8 @@ private:
     Map map = Map::Identity();
     std::array<double, 16> m{};
     if (read_numbers(node, "matrix", m, where)) {
-      for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 3; ++row) map(row, column) = m[static_cast<std::size_t>(4 * column + row)];
+      for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 3; ++row) map(Eigen::Index(row), Eigen::Index(column)) = m[4 * column + row];
       return map;
     }
     std::array<double, 3> shift = {0, 0, 0}, factors = {1, 1, 1};

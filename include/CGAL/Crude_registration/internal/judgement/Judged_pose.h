@@ -32,9 +32,9 @@ struct Agreement
 // What the outcomes of the probes say for a pose.
 struct Pose_evidence
 {
-  double nats = 0;   // a probe: of log( P(outcome | right) / P(outcome | chance) ), as chance is between the two scans
-  double usual = 0;  // the same, as chance is between any two scans
-  double others = 0; // mean of the roots of the evidence of the distinct poses elsewhere, and of one that has none
+  double nats = 0;  // a probe: of log( P(outcome | right) / P(outcome | chance) ), as chance is between the two scans
+  double usual = 0; // the same, as chance is between any two scans
+  double rival = 0; // the most usual evidence of a distinct candidate elsewhere, at least 0
   double residual = 0;   // root mean square of the probes that agree, in tolerances
   double violations = 0; // probes in free space, for each that agrees
   double surfels = 0;    // of the scan with fewer

@@ -72,7 +72,7 @@ public:
       if (!round.correspondences.empty()) poses[i].correspondence = round.correspondences[best[i].index];
     });
     if (m_control.is_stopped()) return;
-    add_candidates(round);
+    add_candidates(round.tried);
     if (m_control.is_stopped()) return;
     const std::size_t old = m_judged.size();
     m_judged.insert(m_judged.end(), poses.begin(), poses.end());
@@ -85,7 +85,6 @@ public:
       if (i >= old) look(m_judged[i].pose, source, target);
       weigh(m_judged[i], source, target);
     });
-    compare();
     refine_leaders(round.tried);
   }
 
@@ -137,18 +136,16 @@ public:
     return !distinct.empty() && distinct.front().probability >= certain;
   }
 
-  // A pose as it is, with what the evidence says of it, in place of those that are one with `place`.
+  // A pose as it is, with what the evidence says of it.
   // \pre A round was added.
-  Judged_pose weighed(const Pose& pose, const Pose& place) const
+  Judged_pose weighed(const Pose& pose) const
   {
     Judged_pose judged;
     judged.pose = pose;
     const std::vector<std::uint8_t> found = outcomes(pose);
     weigh(judged, found.data(), found.data() + m_source_probes.size());
-    compare(judged, place);
     return judged;
   }
-  Judged_pose weighed(const Pose& pose) const { return weighed(pose, pose); }
 
   // The distinct candidates so far, and what the probes of either scan meet under them.
   const std::vector<Pose>& candidates() const { return m_candidates; }
@@ -165,8 +162,6 @@ public:
 
 private:
   static constexpr std::size_t evidence_probes = 1500; // of either scan
-  // Chance is known from so many distinct candidates, where there are as many: what the first round keeps.
-  static constexpr std::size_t fewest_candidates = 32;
 
   std::vector<Judged_pose> distinct_by(double Judged_pose::*key) const
   {
@@ -203,14 +198,13 @@ private:
           starts.push_back(p);
       std::vector<Judged_pose> ends(starts.size(), leader);
       for_each_index(m_execution, starts.size(), to_the_end(), [&](std::size_t i) {
-        const Judged_pose end = weighed(refined(starts[i]), leader.pose);
+        const Judged_pose end = weighed(refined(starts[i]));
         if (end.log_odds > leader.log_odds) ends[i] = with_proposal(end, leader);
       });
       const auto best = std::max_element(
           ends.begin(), ends.end(), [](const Judged_pose& a, const Judged_pose& b) { return a.log_odds < b.log_odds; });
       if (best != ends.end() && best->log_odds > leader.log_odds) add(*best);
     }
-    compare();
   }
 
   static Judged_pose with_proposal(Judged_pose pose, const Judged_pose& of)
@@ -228,23 +222,20 @@ private:
     look(pose.pose, m_judged_source_outcomes[m_judged.size() - 1], m_judged_target_outcomes[m_judged.size() - 1]);
   }
 
-  // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose. Between
-  // planes nearly all of them crowd; others are then as good.
-  void add_candidates(const Proposals& round)
+  // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose.
+  void add_candidates(const std::vector<Pose>& poses)
   {
     const std::size_t old = m_candidates.size();
-    const auto add = [&](const Pose& p) {
+    for (const Pose& p : poses)
       if (std::none_of(m_candidates.begin(), m_candidates.end(),
                        [&](const Pose& q) { return are_one(p, q, m_extent); }))
         m_candidates.push_back(p);
-    };
-    for (const Pose& p : round.tried) add(p);
-    for (const Pose& p : round.dropped)
-      if (m_candidates.size() < fewest_candidates) add(p);
     m_source_outcomes.resize(m_candidates.size(), m_source_probes.size());
     m_target_outcomes.resize(m_candidates.size(), m_target_probes.size());
+    m_usual_evidence.resize(m_candidates.size());
     for_each_index(m_execution, m_candidates.size() - old, m_control, [&](std::size_t i) {
       look(m_candidates[old + i], m_source_outcomes[old + i], m_target_outcomes[old + i]);
+      m_usual_evidence[old + i] = usual(m_source_outcomes[old + i], m_target_outcomes[old + i]);
     });
   }
 
@@ -266,8 +257,11 @@ private:
   void weigh(Judged_pose& judged, const std::uint8_t* source, const std::uint8_t* target) const
   {
     std::vector<std::size_t> near;
-    for (std::size_t k = 0; k < m_candidates.size(); ++k)
+    judged.evidence.rival = 0;
+    for (std::size_t k = 0; k < m_candidates.size(); ++k) {
       if (are_one(judged.pose, m_candidates[k], m_extent)) near.push_back(k);
+      else judged.evidence.rival = (std::max)(judged.evidence.rival, m_usual_evidence[k]);
+    }
     // The middle of each bin of the residuals.
     constexpr std::array<double, Outcome::residual_bins> residuals = {0.0625, 0.1875, 0.375, 0.75};
     double agreeing = 1, violating = 0, squares = residuals.back() * residuals.back(); // as if one more agreed, badly
@@ -289,42 +283,8 @@ private:
     judged.evidence.residual = std::sqrt(squares / agreeing);
     judged.evidence.violations = violating / agreeing;
     judged.evidence.surfels = double((std::min)(m_source.fine.surfels.size(), m_target.fine.surfels.size()));
-  }
-
-  // Of the poses that are one, that with the most evidence.
-  struct Distinct_pose
-  {
-    Pose pose;
-    double root; // of the evidence
-  };
-
-  // The odds of all judged poses, by the evidence of each and of all others.
-  void compare()
-  {
-    std::vector<const Judged_pose*> sorted;
-    for (const Judged_pose& p : m_judged) sorted.push_back(&p);
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const Judged_pose* a, const Judged_pose* b) { return a->evidence.nats > b->evidence.nats; });
-    m_distinct.clear();
-    for (const Judged_pose* p : sorted)
-      if (std::none_of(m_distinct.begin(), m_distinct.end(),
-                       [&](const Distinct_pose& d) { return are_same(p->pose, d.pose); }))
-        m_distinct.push_back({p->pose, std::sqrt((std::max)(p->evidence.nats, 0.))});
-    for (Judged_pose& p : m_judged) compare(p, p.pose);
-  }
-
-  // The odds of a weighed pose, in place of those that are one with `place`.
-  void compare(Judged_pose& judged, const Pose& place) const
-  {
-    double sum = 0, n = 1;
-    for (const Distinct_pose& d : m_distinct) {
-      if (are_same(d.pose, place)) continue;
-      sum += d.root;
-      ++n;
-    }
-    judged.evidence.others = sum / n;
     judged.log_odds = log_odds(judged.evidence, m_coefficients);
-    judged.usual_log_odds = usual_log_odds(judged.evidence, m_coefficients);
+    judged.usual_log_odds = usual_log_odds(judged.evidence, judged.evidence.usual, m_coefficients);
   }
 
   const Reduced_scan& m_source;
@@ -340,9 +300,9 @@ private:
   const Probe_tolerance m_tolerance;
   std::vector<Pose> m_candidates; // distinct; with what the probes of the source and of the target meet under them
   Outcome_table m_source_outcomes, m_target_outcomes;
+  std::vector<double> m_usual_evidence;                   // of the candidates, a probe
   std::optional<Chance> m_source_chance, m_target_chance; // by the candidates so far
   std::vector<Judged_pose> m_judged;
-  std::vector<Distinct_pose> m_distinct; // of the judged poses
   Outcome_table m_judged_source_outcomes, m_judged_target_outcomes;
 };
 

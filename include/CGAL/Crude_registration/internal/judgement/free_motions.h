@@ -115,12 +115,12 @@ inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, double J
     const Vector_6 twist = from_centre * eigen.vectors.col(k);
     const auto moved = [&](double distance) {
       const Pose there = to_pose(exponential(twist, distance) * motion);
-      const double odds = judge.weighed(there, here).*log_odds;
+      const double odds = judge.weighed(there).*log_odds;
       // Less probable than that nothing is right, it is not worth another look.
       if (odds >= rival || odds < 0) return odds;
       // The motion is known to some digits only; what is free stays where refinement finds it.
       const Pose refined = judge.refined(there);
-      return is_away(refined) ? (std::max)(odds, judge.weighed(refined, here).*log_odds) : odds;
+      return is_away(refined) ? (std::max)(odds, judge.weighed(refined).*log_odds) : odds;
     };
     if ((std::max)(moved(2 * spacing), moved(-2 * spacing)) < rival) break;
     free.push_back(twist);

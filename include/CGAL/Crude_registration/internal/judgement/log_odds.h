@@ -25,29 +25,25 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// What the surfels of a scan tell, as a share of what many would: those side by side say the same, so that it matters
-// little how many there are, unless they are few.
-inline double effective_share(const Pose_evidence& evidence, const Evidence_coefficients& c)
+// The logarithm of the odds that a pose is right, against none being right, as chance is between any two scans, but for
+// the slope of what the probes say. What they say grows with the area that agrees, and so does its variance: the root
+// tells how far it is from chance. Probes side by side say the same, so that it matters little how many there are,
+// unless they are few. The residual tells wrong poses, which fill the tolerance evenly, and what is in free space is
+// there together, and says more than its probes. `nats`: of the evidence.
+inline double usual_log_odds(const Pose_evidence& evidence, double nats, const Evidence_coefficients& c = {})
 {
-  return evidence.surfels / (evidence.surfels + c.surfels);
+  const double effective = evidence.surfels / (evidence.surfels + c.surfels);
+  return c.slope * std::sqrt(effective * (std::max)(nats, 0.)) + c.residual * evidence.residual +
+         c.violations * std::sqrt(evidence.violations) + c.offset;
 }
 
-// The logarithm of the odds that a pose is right, against none being right. What the probes say grows with the area
-// that agrees, and so does its variance: the root tells how far it is from chance. How far it is from that of the other
-// poses tells how much is by chance between these two scans. The residual tells wrong poses, which fill the tolerance
-// evenly, and what is in free space is there together, and says more than its probes.
+// The same as chance is between the two scans: the evidence is weighed by it, and by how far the pose leads the best
+// candidate elsewhere. Where the scans fit each other in part in many ways, chance explains a right pose away, but no
+// other one comes near it.
 inline double log_odds(const Pose_evidence& evidence, const Evidence_coefficients& c = {})
 {
-  const double unit = std::sqrt(effective_share(evidence, c)), root = std::sqrt((std::max)(evidence.nats, 0.));
-  return c.slope * unit * root + c.residual * evidence.residual + c.violations * std::sqrt(evidence.violations) +
-         c.lead * unit * (root - evidence.others) + c.offset;
-}
-
-// The same as chance is between any two scans, whatever it is between these, and whatever the other poses are.
-inline double usual_log_odds(const Pose_evidence& evidence, const Evidence_coefficients& c = {})
-{
-  return c.usual_slope * std::sqrt(effective_share(evidence, c) * (std::max)(evidence.usual, 0.)) +
-         c.usual_residual * evidence.residual + c.usual_violations * std::sqrt(evidence.violations) + c.usual_offset;
+  const double lead = std::sqrt((std::max)(evidence.usual, 0.)) - std::sqrt(evidence.rival);
+  return usual_log_odds(evidence, evidence.nats, c) + c.lead * lead;
 }
 
 // The probabilities of n distinct poses: P_k = (1 - l) exp(x_k) / (1 + sum_j exp(x_j)) + l / (n + 1), x the log-odds,
