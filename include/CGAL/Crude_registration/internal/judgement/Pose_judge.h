@@ -85,7 +85,8 @@ public:
       if (i >= old) look(m_judged[i].pose, source, target);
       weigh(m_judged[i], source, target);
     });
-    refine_leaders(round.tried);
+    m_tried.insert(m_tried.end(), round.tried.begin(), round.tried.end());
+    refine_leaders();
   }
 
   std::size_t number_of_judged() const { return m_judged.size(); }
@@ -181,21 +182,18 @@ private:
   }
 
   // Where planes slide along each other, refinement ends beside the best pose, and from elsewhere in another place: the
-  // leading poses that are in doubt are refined from each of the round's poses around them, too. The best one counts.
-  void refine_leaders(const std::vector<Pose>& tried)
+  // leading poses that are in doubt are refined from each of the search's poses around them, too. The best one counts.
+  void refine_leaders()
   {
     constexpr std::size_t most_leaders = 2; // the best and its rival
     const double doubt = std::log(certain / (1 - certain));
-    const float spacing = (std::max)(m_source.coarse.spacing, m_target.coarse.spacing);
     std::vector<Judged_pose> leaders = distinct_by(&Judged_pose::log_odds);
     if (leaders.size() > most_leaders) leaders.resize(most_leaders);
     for (const Judged_pose& leader : leaders) {
       if (!(std::abs(leader.log_odds) < doubt)) continue;
       std::vector<Pose> starts;
-      for (const Pose& p : tried)
-        if (are_one(p, leader.pose, m_extent) &&
-            std::none_of(starts.begin(), starts.end(), [&](const Pose& q) { return are_close(p, q, spacing); }))
-          starts.push_back(p);
+      for (const Pose& p : m_tried)
+        if (are_one(p, leader.pose, m_extent)) starts.push_back(p);
       std::vector<Judged_pose> ends(starts.size(), leader);
       for_each_index(m_execution, starts.size(), to_the_end(), [&](std::size_t i) {
         const Judged_pose end = weighed(refined(starts[i]));
@@ -302,6 +300,7 @@ private:
   Outcome_table m_source_outcomes, m_target_outcomes;
   std::vector<double> m_usual_evidence;                   // of the candidates, a probe
   std::optional<Chance> m_source_chance, m_target_chance; // by the candidates so far
+  std::vector<Pose> m_tried;                              // of all rounds
   std::vector<Judged_pose> m_judged;
   Outcome_table m_judged_source_outcomes, m_judged_target_outcomes;
 };
