@@ -194,14 +194,6 @@ Scaled_outcome registered_at(double scale, const Scan<Kernel>& source, const Sca
   return outcome;
 }
 
-// The odds that an answer is right.
-inline double odds_of(const Registration_outcome& outcome)
-{
-  constexpr double largest = 1 - 1e-12;
-  const double p = (std::min)(outcome.verdict.confidence, largest);
-  return p / (1 - p);
-}
-
 // What is believed of the best of several scales, of which as many as `number` were to be tried: beforehand each was as
 // probable as another, so that the odds of one are that share of what they are alone; what was found at other scales
 // are its rivals.
