@@ -129,6 +129,7 @@ struct Scaled_outcome : Registration_outcome
 // moved by two sampling distances: as planes do. (Edges and borders, of which there are few, count for little then.)
 inline bool is_scale_free(Similarity_refiner& refiner, const Rigid_motion& initial, const Similarity_refinement& best)
 {
+  // Decided, not measured: what counts as agreeing as well.
   constexpr double displacement = 2, fewest_matches = 0.9, largest_growth = 1.25, rounding = 0.02;
   const double s = best.sampling_distance, change = displacement * s / best.radius;
   for (const double scale : {best.scale * (1 + change), best.scale / (1 + change)}) {
@@ -199,7 +200,7 @@ Scaled_outcome registered_at(double scale, const Scan<Kernel>& source, const Sca
 // are its rivals.
 inline Verdict verdict_of(const std::vector<Scaled_outcome>& outcomes, const Scaled_outcome& best, std::size_t number)
 {
-  constexpr double one = 0.02; // scales as near to each other as this are one
+  constexpr double one = 0.02; // nearer scales are one: half of what a motion is found in spite of
   const auto odds = [](double p) {
     constexpr double largest = 1 - 1e-12;
     return (std::min)(p, largest) / (1 - (std::min)(p, largest));
