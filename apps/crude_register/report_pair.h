@@ -148,8 +148,7 @@ inline std::vector<Report_number> numbers_of(const CR::Registration_result<Kerne
     }
   }
   add("Score", number_text(result.score()),
-      "The natural logarithm of the odds that the best motion is right, against none being right, whatever its "
-      "rivals.");
+      "The natural logarithm of the odds that the best motion is right, against none being right.");
   const char* const names[2] = {"source", "target"};
   for (std::size_t i = 0; i < 2; ++i) {
     const CR::Scan<Kernel>* scan = scans[i];

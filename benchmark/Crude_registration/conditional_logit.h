@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -24,8 +25,8 @@ namespace benchmark_tools {
 // Of the n alternatives of a choice, with features f_k, at most one is right. With probability 1 - lapse it is drawn by
 //   P_k = exp(b f_k) / (1 + sum_j exp(b f_j)),
 // the one being for none of them, else evenly from the n + 1: so that a few choices that no features explain do not
-// flatten the law for all.
-template <int n_features>
+// flatten the law for all. Without `has_none`, one of them is right, and there is neither the one nor the n + 1.
+template <int n_features, bool has_none = true>
 class Conditional_logit
 {
 public:
@@ -38,7 +39,7 @@ public:
     double log_likelihood = 0;
   };
 
-  // `right`: -1 for none of them. `group`: see fit().
+  // `right`: -1 for none of them, where that can be. `group`: see fit().
   void add_choice(const std::vector<Features>& alternatives, int right, std::size_t group)
   {
     m_choices.push_back({m_features.size(), alternatives.size(), right, group});
@@ -81,6 +82,15 @@ private:
     std::size_t group;
   };
 
+  // What is taken off all exponents, so that none overflows, and what is left of none of the alternatives.
+  double greatest_of(const Choice& choice, const Features& b) const
+  {
+    double greatest = has_none ? 0 : -(std::numeric_limits<double>::max)();
+    for (std::size_t k = 0; k < choice.size; ++k) greatest = (std::max)(greatest, b.dot(m_features[choice.begin + k]));
+    return greatest;
+  }
+  static double of_none(double greatest) { return has_none ? std::exp(-greatest) : 0; }
+
   // The weights of the choices, each the probability that it obeys the law; the likelihood of all.
   double expect(std::size_t without, const Estimate& e, std::vector<double>& weights) const
   {
@@ -88,16 +98,14 @@ private:
     for (std::size_t c = 0; c < m_choices.size(); ++c) {
       const Choice& choice = m_choices[c];
       if (choice.group == without) continue;
-      double greatest = 0, total = 0;
-      for (std::size_t k = 0; k < choice.size; ++k)
-        greatest = (std::max)(greatest, e.coefficients.dot(m_features[choice.begin + k]));
+      const double greatest = greatest_of(choice, e.coefficients);
+      double total = of_none(greatest);
       for (std::size_t k = 0; k < choice.size; ++k)
         total += std::exp(e.coefficients.dot(m_features[choice.begin + k]) - greatest);
-      total += std::exp(-greatest);
       const double of_right =
           choice.right < 0 ? 0 : e.coefficients.dot(m_features[choice.begin + std::size_t(choice.right)]);
       const double lawful = (1 - e.lapse) * std::exp(of_right - greatest) / total,
-                   all = lawful + e.lapse / double(choice.size + 1);
+                   all = lawful + e.lapse / double(choice.size + std::size_t(has_none));
       weights[c] = lawful / all;
       sum += std::log(all);
     }
@@ -118,10 +126,8 @@ private:
     for (std::size_t c = 0; c < m_choices.size(); ++c) {
       const Choice& choice = m_choices[c];
       if (choice.group == without) continue;
-      double greatest = 0;
-      for (std::size_t k = 0; k < choice.size; ++k)
-        greatest = (std::max)(greatest, b.dot(m_features[choice.begin + k]));
-      double total = std::exp(-greatest);
+      const double greatest = greatest_of(choice, b);
+      double total = of_none(greatest);
       Features mean = Features::Zero();
       Information square = Information::Zero();
       for (std::size_t k = 0; k < choice.size; ++k) {

@@ -188,7 +188,7 @@ Coefficients measured_tables(const Generation& generation)
       }
       std::array<double, CRI::Outcome::SIZE> counts{};
       for (const CRI::Outcome_table* table : {&judge.source_outcomes(), &judge.target_outcomes()})
-        for (std::size_t k = 0; k < table->poses(); ++k)
+        for (const std::size_t k : judge.tried_candidates())
           for (std::size_t i = 0; i < table->probes(); ++i) ++counts[(*table)[k][i]];
       wrong.add(counts, true);
     }
@@ -240,63 +240,121 @@ std::vector<Choice> choices_of(const Generation& generation, const Coefficients&
   return choices;
 }
 
-using Logit = benchmark_tools::Conditional_logit<5>;
-
-// What the log-odds are a linear function of; `surfels` as in Evidence_coefficients.
-Logit::Features features(const CRI::Pose_evidence& e, double surfels)
+std::vector<CRI::Judged_pose> judged(const Choice& choice, const Coefficients& c)
 {
-  Logit::Features f;
-  f << std::sqrt(e.surfels / (e.surfels + surfels) * (std::max)(e.nats, 0.)), e.residual, std::sqrt(e.violations),
-      std::sqrt((std::max)(e.usual, 0.)) - std::sqrt(e.rival), 1;
-  return f;
-}
-
-Logit logit(const std::vector<Choice>& choices, double surfels)
-{
-  Logit result;
-  for (const Choice& choice : choices) {
-    std::vector<Logit::Features> poses;
-    for (const auto& p : choice.poses) poses.push_back(features(p, surfels));
-    result.add_choice(poses, choice.right, choice.setting);
+  std::vector<CRI::Judged_pose> poses(choice.poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    poses[i].evidence = choice.poses[i];
+    poses[i].log_weight = CRI::log_weight(choice.poses[i], choice.poses[i].tried, c);
   }
-  return result;
+  return poses;
 }
-
-void set(const Logit::Estimate& e, Coefficients& c)
-{
-  c.slope = e.coefficients[0];
-  c.residual = e.coefficients[1];
-  c.violations = e.coefficients[2];
-  c.lead = e.coefficients[3];
-  c.offset = e.coefficients[4];
-  c.lapse = e.lapse;
-}
-
-struct Fit
-{
-  Logit logit;
-  Logit::Estimate estimate;
-  Coefficients coefficients;
-};
 
 constexpr std::size_t no_setting = (std::numeric_limits<std::size_t>::max)();
 
-// The most likely coefficients, of the number of surfels to within a factor of two.
-Fit fit(const std::vector<Choice>& choices, const Coefficients& tables)
+// The law of which pose is right, if one is: without lead and offset, which say nothing of that.
+struct Law_of_shares
 {
-  Fit best;
-  best.estimate.log_likelihood = -(std::numeric_limits<double>::max)();
-  for (const double surfels : {25., 50., 100., 200., 400., 800.}) {
-    const Logit law = logit(choices, surfels);
-    Logit::Estimate start;
-    start.lapse = 0.01;
-    const Logit::Estimate e = law.fit(no_setting, start, false);
-    if (e.log_likelihood <= best.estimate.log_likelihood) continue;
-    best = {law, e, tables};
-    best.coefficients.surfels = surfels;
-    set(e, best.coefficients);
+  using Logit = benchmark_tools::Conditional_logit<3, false>;
+  static void set(const Logit::Estimate& e, Coefficients& c)
+  {
+    c.share = {e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, 0, e.lapse};
   }
+  static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
+  {
+    Logit result;
+    for (const Choice& choice : choices) {
+      if (choice.right < 0) continue;
+      std::vector<Logit::Features> poses;
+      for (const CRI::Pose_evidence& e : choice.poses)
+        poses.emplace_back(CRI::root_of_evidence(e, e.tried, c), e.residual, std::sqrt(e.violations));
+      result.add_choice(poses, choice.right, choice.setting);
+    }
+    return result;
+  }
+};
+
+// The law of whether any of the poses is right, of the leading one by the shares.
+struct Law_of_any
+{
+  using Logit = benchmark_tools::Conditional_logit<5>;
+  static void set(const Logit::Estimate& e, Coefficients& c)
+  {
+    c.any = {e.coefficients[0], e.coefficients[1], e.coefficients[2], e.coefficients[3], e.coefficients[4], e.lapse};
+  }
+  static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
+  {
+    Logit result;
+    for (const Choice& choice : choices) {
+      const std::vector<CRI::Judged_pose> poses = judged(choice, c);
+      const CRI::Leading_pose leading = CRI::leading_pose(poses, false, c);
+      const CRI::Pose_evidence& e = leading.pose->evidence;
+      Logit::Features f;
+      f << leading.root, e.residual, std::sqrt(e.violations), leading.lead, 1;
+      result.add_choice({f}, choice.right < 0 ? -1 : 0, choice.setting);
+    }
+    return result;
+  }
+};
+
+// The same as chance is between any two scans, whatever the other poses are.
+struct Law_of_usual_any
+{
+  using Logit = benchmark_tools::Conditional_logit<4>;
+  static void set(const Logit::Estimate& e, Coefficients& c)
+  {
+    c.usual_any = {e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, e.coefficients[3], e.lapse};
+  }
+  static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
+  {
+    Logit result;
+    for (const Choice& choice : choices) {
+      const std::vector<CRI::Judged_pose> poses = judged(choice, c);
+      const CRI::Leading_pose leading = CRI::leading_pose(poses, true, c);
+      const CRI::Pose_evidence& e = leading.pose->evidence;
+      result.add_choice({{leading.root, e.residual, std::sqrt(e.violations), 1}}, choice.right < 0 ? -1 : 0,
+                        choice.setting);
+    }
+    return result;
+  }
+};
+
+// Sets a law, fitted to all choices but those of a setting; returns the log-likelihood. `held`: a lapse that is not to
+// be fitted.
+template <class Law>
+double fit_law(const std::vector<Choice>& choices, std::size_t without, std::optional<double> held, Coefficients& c)
+{
+  typename Law::Logit::Estimate start;
+  start.lapse = held.value_or(0.01);
+  const typename Law::Logit::Estimate e = Law::logit(choices, c).fit(without, start, held.has_value());
+  Law::set(e, c);
+  return e.log_likelihood;
+}
+
+// The most likely coefficients, of the number of surfels to within a factor of two.
+Coefficients fit(const std::vector<Choice>& choices, Coefficients c)
+{
+  Coefficients best;
+  double greatest = -(std::numeric_limits<double>::max)();
+  for (const double surfels : {25., 50., 100., 200., 400., 800.}) {
+    c.surfels = surfels;
+    double log_likelihood = fit_law<Law_of_shares>(choices, no_setting, std::nullopt, c);
+    log_likelihood += fit_law<Law_of_any>(choices, no_setting, std::nullopt, c);
+    if (log_likelihood <= greatest) continue;
+    greatest = log_likelihood;
+    best = c;
+  }
+  fit_law<Law_of_usual_any>(choices, no_setting, std::nullopt, best);
   return best;
+}
+
+// The same without a setting, of which `c` is of all. The lapses and the number of surfels stay: they are too seldom
+// seen in one.
+Coefficients fit_without(std::size_t setting, const std::vector<Choice>& choices, Coefficients c)
+{
+  fit_law<Law_of_shares>(choices, setting, c.share.lapse, c);
+  fit_law<Law_of_any>(choices, setting, c.any.lapse, c);
+  return c;
 }
 
 // The most probable pose of a choice: its probability, and whether it is the right one.
@@ -308,9 +366,8 @@ struct Answer
 
 Answer answer(const Choice& choice, const Coefficients& c)
 {
-  std::vector<CRI::Judged_pose> poses(choice.poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].log_odds = CRI::log_odds(choice.poses[i], c);
-  CRI::share_probability(poses, c);
+  std::vector<CRI::Judged_pose> poses = judged(choice, c);
+  CRI::share_probability(poses, false, c);
   const auto best =
       std::max_element(poses.begin(), poses.end(), [](const CRI::Judged_pose& a, const CRI::Judged_pose& b) {
         return a.probability < b.probability;
@@ -368,6 +425,11 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
          "// benchmark/Crude_registration/fit_confidence, and not by hand.\n"
       << how
       << "\nnamespace CGAL {\nnamespace Crude_registration {\nnamespace internal {\n\n"
+         "// A linear law: slope root(evidence) + residual (RMS of the probes that agree, in tolerances) + violations "
+         "sqrt(probes in\n// free space a probe that agrees) + lead (of the root over the mean of the others) + "
+         "offset; "
+         "lapse: the share of answers\n// that obey no such law.\n"
+         "struct Evidence_law\n{\n  double slope, residual, violations, lead, offset, lapse;\n};\n\n"
          "struct Evidence_coefficients\n{\n"
       << std::setprecision(5);
   const auto list = [&](const char* name, const double* values, std::size_t n) {
@@ -387,17 +449,17 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
   list("right_fit", c.right_fit, 12);
   out << "  // The same under the candidates of a pair.\n";
   list("wrong_fit", c.wrong_fit, 12);
-  out << "  // log( P(right) / P(none) ) = slope sqrt(n / (n + surfels) evidence a probe) + residual (RMS of the "
-         "probes that agree,\n"
-         "  // in tolerances) + violations sqrt(probes in free space a probe that agrees) + lead (root of the usual "
-         "evidence,\n"
-         "  // less that of the best candidate elsewhere) + offset; n: of the scan with fewer.\n"
-         "  double surfels = "
-      << c.surfels << ";\n  double slope = " << c.slope << ";\n  double residual = " << c.residual
-      << ";\n  double violations = " << c.violations << ";\n  double lead = " << c.lead
-      << ";\n  double offset = " << c.offset
-      << ";\n  // Of the answers that obey no such law.\n  double lapse = " << c.lapse
-      << ";\n};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
+  const auto law = [&](const char* name, const CRI::Evidence_law& l) {
+    out << "  Evidence_law " << name << " = {" << l.slope << ", " << l.residual << ", " << l.violations << ", "
+        << l.lead << ", " << l.offset << ", " << l.lapse << "};\n";
+  };
+  out << "  // The root is of n / (n + surfels) evidence a probe; n: of the scan with fewer.\n  double surfels = "
+      << c.surfels << ";\n  // The logarithms of the weights of distinct poses, if one is right.\n";
+  law("share", c.share);
+  out << "  // The log-odds that one of them is right, and the same as chance is between any two scans.\n";
+  law("any", c.any);
+  law("usual_any", c.usual_any);
+  out << "};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
          "#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n";
 }
 
@@ -445,18 +507,13 @@ int main(int argc, char** argv)
     const Coefficients tables = measured_tables(for_tables);
     const std::vector<Choice> choices = choices_of(generation, tables);
     const std::size_t settings = choices.empty() ? 0 : choices.back().setting + 1;
-    const Fit all = fit(choices, tables);
-    // The lapse and the number of surfels are those of all settings: they are too seldom seen in one.
+    const Coefficients c = fit(choices, tables);
     for (std::size_t without = 0; without < settings; ++without) {
-      Coefficients c = all.coefficients;
-      set(all.logit.fit(without, all.estimate, true), c);
+      const Coefficients others = fit_without(without, choices, c);
       for (const Choice& choice : choices)
-        if (choice.setting == without) answers.push_back(answer(choice, c));
+        if (choice.setting == without) answers.push_back(answer(choice, others));
     }
     const Calibration calibration = print_reliability(answers);
-    const Coefficients& c = all.coefficients;
-    std::cout << "surfels " << c.surfels << ", slope " << c.slope << ", residual " << c.residual << ", violations "
-              << c.violations << ", lead " << c.lead << ", offset " << c.offset << ", lapse " << c.lapse << '\n';
     if (!output.empty()) {
       std::ostringstream how;
       how << "// " << settings << " settings, seeds " << generation.first_seed << " to "

@@ -43,12 +43,13 @@ struct Other_answer
 // The distinct ones of weighed poses, most probable first, as Pose_judge::distinct_poses() has them.
 inline std::vector<CRI::Judged_pose> distinct(const CRI::Pose_judge& judge, std::vector<CRI::Judged_pose> poses)
 {
-  std::stable_sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.log_odds > b.log_odds; });
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
   std::vector<CRI::Judged_pose> result;
   for (const CRI::Judged_pose& p : poses)
     if (std::none_of(result.begin(), result.end(), [&](const auto& d) { return judge.are_same(p.pose, d.pose); }))
       result.push_back(p);
-  CRI::share_probability(result);
+  CRI::share_probability(result, false);
   return result;
 }
 

@@ -94,7 +94,7 @@ class ScoredMotion(typing.NamedTuple):
     """A motion that was considered, and how good it is.
 
     T_target_source: (4, 4): maps the source into the frame of the target.
-    score: the natural logarithm of the odds that it is right: what the evidence says of it alone, whatever its rivals.
+    score: the natural logarithm of the odds that it is right, against none of the distinct motions being right.
     probability: that it is right, among all motions that were considered and none of them; of the answer its confidence.
     """
 

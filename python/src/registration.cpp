@@ -270,7 +270,8 @@ void bind_registration(py::module_& module)
       "known.");
   add("confidence", &Result::confidence, "How certain T_target_source is, from 0 to 1.");
   add("score", &Result::score,
-      "The natural logarithm of the odds that T_target_source is right: what the evidence says of it alone.");
+      "The natural logarithm of the odds that T_target_source is right, against none of the distinct motions being "
+      "right.");
   add("overlap", &Result::overlap, "The share of the source's surface that lies on the target's, from 0 to 1.");
   add("residual", &Result::residual,
       "RMS distance of the scans in their overlap, along normals, in sampling distances.");

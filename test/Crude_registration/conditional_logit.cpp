@@ -26,16 +26,17 @@ using Logit = benchmark_tools::Conditional_logit<3>;
 constexpr std::size_t all = (std::numeric_limits<std::size_t>::max)();
 
 // Choices among 1 to 6 alternatives by a law, some of them drawn evenly; of group 1 those whose number is odd.
-Logit drawn(std::size_t n, const Logit::Features& law, double lapse, bool odd_ones_are_reversed)
+template <class Law = Logit>
+Law drawn(std::size_t n, const Logit::Features& law, double lapse, bool odd_ones_are_reversed, bool has_none = true)
 {
   const CGAL::Crude_registration::internal::Counter_random random(5);
   std::uint64_t at = 0;
-  Logit logit;
+  Law logit;
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<Logit::Features> alternatives(1 + std::size_t(6 * random.uniform(at++)));
-    std::vector<double> share = {1}; // of none, and of each
+    std::vector<double> share = {has_none ? 1. : 0.}; // of none, and of each
     const double sign = odd_ones_are_reversed && i % 2 == 1 ? -1 : 1;
-    double sum = 1;
+    double sum = share.front();
     for (Logit::Features& f : alternatives) {
       f << random.normal(at), random.normal(at + 1), 1;
       at += 2;
@@ -44,7 +45,8 @@ Logit drawn(std::size_t n, const Logit::Features& law, double lapse, bool odd_on
     }
     if (random.uniform(at++) < lapse) {
       share.assign(share.size(), 1);
-      sum = double(share.size());
+      share.front() = has_none ? 1 : 0;
+      sum = double(share.size() - 1) + share.front();
     }
     double left = sum * random.uniform(at++);
     int right = -1;
@@ -68,6 +70,21 @@ BOOST_AUTO_TEST_CASE(the_law_is_found)
   BOOST_TEST((e.coefficients - law).norm() < 0.2);
   BOOST_TEST(e.lapse == 0);
   BOOST_TEST(e.log_likelihood < 0);
+}
+
+BOOST_AUTO_TEST_CASE(the_law_of_shares_is_found)
+{
+  using Shares = benchmark_tools::Conditional_logit<3, false>;
+  // What all alternatives have says nothing.
+  const Shares::Features law(4, -2, 0);
+  Shares::Estimate start;
+  start.lapse = 0.01;
+  for (const double lapse : {0., 0.05}) {
+    const Shares::Estimate e = drawn<Shares>(20000, law, lapse, false, false).fit(all, start, false);
+    BOOST_TEST((e.coefficients - law).norm() < 0.3);
+    BOOST_TEST(std::abs(e.lapse - lapse) < 0.01);
+    BOOST_TEST(e.log_likelihood < 0);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(lapses_do_not_flatten_the_law)

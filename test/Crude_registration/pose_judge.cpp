@@ -182,6 +182,7 @@ BOOST_AUTO_TEST_CASE(the_right_one_of_many_poses_is_most_probable)
     BOOST_TEST(poses[i].probability >= 0);
     sum += poses[i].probability;
     if (i > 0) BOOST_TEST(poses[i].log_odds <= poses[i - 1].log_odds);
+    if (i > 0) BOOST_TEST(poses[i].log_weight <= poses[i - 1].log_weight);
     for (std::size_t j = 0; j < i; ++j)
       BOOST_TEST(!CR::internal::are_one(poses[i].pose, poses[j].pose, float(a().scan.extent())));
   }
@@ -201,9 +202,8 @@ BOOST_AUTO_TEST_CASE(a_pose_in_doubt_is_refined_from_all_around_it)
   // By the residual alone; all poses are in doubt, or all are certain.
   const auto judge_by_residual = [&](double offset) {
     CR::internal::Evidence_coefficients coefficients;
-    coefficients.slope = coefficients.lead = coefficients.violations = 0;
-    coefficients.residual = -1;
-    coefficients.offset = offset;
+    coefficients.share = {0, -1, 0, 0, 0, 0};
+    coefficients.any = {0, -1, 0, 0, offset, 0};
     return Pose_judge(source, target, CR::internal::Execution::SEQUENTIAL, CR::internal::to_the_end(), coefficients);
   };
   CR::internal::Proposals proposals;
@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(a_pose_in_doubt_is_refined_from_all_around_it)
   std::vector<double> ends;
   for (const Pose& p : proposals.tried) {
     BOOST_TEST(judge.are_same(p, judge.refined(p)));
-    ends.push_back(judge.weighed(judge.refined(p)).log_odds);
+    ends.push_back(judge.weighed(judge.refined(p)).log_weight);
   }
   const auto worst = std::size_t(std::min_element(ends.begin(), ends.end()) - ends.begin());
   const double greatest = *std::max_element(ends.begin(), ends.end());
@@ -229,25 +229,68 @@ BOOST_AUTO_TEST_CASE(a_pose_in_doubt_is_refined_from_all_around_it)
     again.add_round(proposals);
     BOOST_TEST_REQUIRE(again.distinct_poses().size() == 1u);
     const auto best = again.distinct_poses().front();
-    const double log_odds = best.log_odds - offset, wanted_odds = offset > 0 ? ends[worst] : greatest;
-    BOOST_TEST(std::abs(log_odds - wanted_odds) < 1e-12);
+    const double wanted_weight = offset > 0 ? ends[worst] : greatest;
+    BOOST_TEST(best.log_weight == wanted_weight);
+    BOOST_TEST(std::abs(best.log_odds - offset - wanted_weight) < 1e-12);
     BOOST_TEST((best.proposed.rotation == proposals.poses.front().rotation));
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_rival_is_the_best_candidate_elsewhere)
+// Chance from few candidates that were tried, and filled up by others that were dropped: by a judge of which all that
+// is in question was tried.
+BOOST_AUTO_TEST_CASE(few_candidates_are_filled_up_by_dropped_ones)
 {
   const Rigid_motion wanted = own(true_motion(a(), b()));
-  std::vector<Pose> proposed;
-  for (int i = 0; i < 12; ++i) proposed.push_back(to_pose(turned(wanted, 0.5 * i, Vector(0.02 * i, 0, 0))));
+  const Reduced_scan &source = a().scan.reduced(), &target = b().scan.reduced();
+  const auto pose = [&](int i) { return to_pose(turned(wanted, 0.5 * i, Vector(0.02 * i, 0.3 * (i / 12), 0))); };
+  std::vector<Pose> few, others;
+  for (int i = 0; i < 4; ++i) few.push_back(pose(i));
+  for (int i = 2; i < 48; ++i) others.push_back(pose(i)); // two of them were tried
+  const auto judged = [&](const std::vector<Pose>& tried, const std::vector<Pose>& dropped) {
+    Pose_judge judge = judge_of(source, target);
+    CR::internal::Proposals proposals;
+    proposals.poses = few;
+    proposals.judged = few.size();
+    proposals.are_estimated = true;
+    proposals.tried = tried;
+    proposals.dropped = dropped;
+    judge.add_round(proposals);
+    return judge;
+  };
+  const Pose_judge filled = judged(few, others), only_few = judged(few, {});
+  BOOST_TEST_REQUIRE(only_few.candidates().size() == 4u);
+  BOOST_TEST_REQUIRE(filled.candidates().size() == 32u);
+  BOOST_TEST(filled.tried_candidates().size() == 4u);
+  const Pose_judge all_tried = judged(filled.candidates(), {});
+  BOOST_TEST_REQUIRE(all_tried.candidates().size() == 32u);
+  for (const Pose& p : few) {
+    const auto f = filled.weighed(p).evidence, o = only_few.weighed(p).evidence, t = all_tried.weighed(p).evidence;
+    BOOST_TEST(f.tried == o.tried);
+    BOOST_TEST(o.fuller == o.tried);
+    BOOST_TEST(f.fuller == t.tried);
+    BOOST_TEST(f.fuller != f.tried);
+    BOOST_TEST(f.usual == o.usual);
+  }
+  // One that was dropped, and is tried in a later round, counts as tried, and once.
+  Pose_judge later = judged(few, others);
+  CR::internal::Proposals second;
+  second.poses = {others[7]};
+  second.judged = 1;
+  second.are_estimated = true;
+  second.tried = {others[7]};
+  later.add_round(second);
+  BOOST_TEST(later.candidates().size() == 32u);
+  BOOST_TEST(later.tried_candidates().size() == 5u);
+}
+
+BOOST_AUTO_TEST_CASE(usual_evidence_is_that_of_its_outcomes)
+{
+  const Rigid_motion wanted = own(true_motion(a(), b()));
   Pose_judge judge = judge_of(a().scan.reduced(), b().scan.reduced());
-  CR::internal::Proposals proposals = proposals_of(proposed);
-  proposals.tried = proposed;
-  judge.add_round(proposals);
-  BOOST_TEST_REQUIRE(judge.candidates().size() > 2u);
-  const auto extent = float((std::min)(a().scan.reduced().extent, b().scan.reduced().extent));
+  judge.add_round(proposals_of({to_pose(wanted)}));
   const CR::internal::Evidence_coefficients c;
-  const auto usual = [&](const Pose& pose) {
+  for (const double angle : {0., 0.1, 1.}) {
+    const Pose pose = to_pose(turned(wanted, angle, Vector::Zero()));
     const std::vector<std::uint8_t> outcomes = judge.outcomes(pose);
     double sum = 0;
     for (const std::uint8_t o : outcomes) {
@@ -256,51 +299,90 @@ BOOST_AUTO_TEST_CASE(the_rival_is_the_best_candidate_elsewhere)
       const double log_ratio = std::log(c.right[kind] / c.wrong[kind]);
       sum += kind > 0 ? (std::min)(log_ratio, 0.) : log_ratio + std::log(c.right_fit[o - 1] / c.wrong_fit[o - 1]);
     }
-    return sum / double(outcomes.size());
-  };
-  for (const CR::internal::Judged_pose& p : judge.distinct_poses()) {
-    double rival = 0;
-    for (const Pose& candidate : judge.candidates())
-      if (!CR::internal::are_one(candidate, p.pose, extent)) rival = (std::max)(rival, usual(candidate));
-    BOOST_TEST(p.evidence.rival == rival, boost::test_tools::tolerance(1e-12));
-    BOOST_TEST(p.evidence.usual == usual(p.pose), boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(judge.weighed(pose).evidence.usual == sum / double(outcomes.size()),
+               boost::test_tools::tolerance(1e-12));
   }
 }
 
+using CR::internal::Judged_pose;
+using CR::internal::Pose_evidence;
+
+namespace {
+
+// Of n poses the first is better than the others, that are all alike.
+std::vector<Judged_pose> some_poses(std::size_t n, const Pose_evidence& first, const Pose_evidence& others)
+{
+  std::vector<Judged_pose> poses(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    poses[i].evidence = i == 0 ? first : others;
+    poses[i].log_weight = CR::internal::log_weight(poses[i].evidence, poses[i].evidence.tried);
+  }
+  CR::internal::share_probability(poses, false);
+  return poses;
+}
+
+const Pose_evidence good{0.5, 0.6, 0.4, 0.2, 0.01, 10000}, poor{0.1, 0.15, 0.1, 0.3, 0.02, 10000};
+
+} // namespace
+
 BOOST_AUTO_TEST_CASE(odds_rise_with_what_speaks_for_a_pose)
 {
-  const CR::internal::Pose_evidence evidence{0.5, 0.4, 0.3, 0.01, 0.2, 10000};
-  const auto odds = [&](double CR::internal::Pose_evidence::*member, double change) {
-    CR::internal::Pose_evidence changed = evidence;
-    changed.*member += change;
-    return CR::internal::log_odds(changed);
+  using Evidence = Pose_evidence;
+  const auto odds = [](double Evidence::*member, double of_first, double of_others) {
+    Evidence first = good, others = poor;
+    first.*member += of_first;
+    others.*member += of_others;
+    return some_poses(4, first, others).front().log_odds;
   };
-  using Evidence = CR::internal::Pose_evidence;
-  const double here = CR::internal::log_odds(evidence);
-  BOOST_TEST(odds(&Evidence::nats, 0.1) > here);
-  BOOST_TEST(odds(&Evidence::usual, 0.1) > here);
-  BOOST_TEST(odds(&Evidence::residual, 0.1) < here);
-  BOOST_TEST(odds(&Evidence::violations, 0.1) < here);
-  BOOST_TEST(odds(&Evidence::rival, 0.1) < here);
-  BOOST_TEST(odds(&Evidence::surfels, -9900) < here);
+  const double here = odds(&Evidence::tried, 0, 0);
+  BOOST_TEST(odds(&Evidence::tried, 0.1, 0) > here);
+  BOOST_TEST(odds(&Evidence::fuller, 0.1, 0) > here);
+  BOOST_TEST(odds(&Evidence::usual, 0.1, 0.1) == here);
+  BOOST_TEST(odds(&Evidence::residual, 0.1, 0) < here);
+  BOOST_TEST(odds(&Evidence::violations, 0.1, 0) < here);
+  BOOST_TEST(odds(&Evidence::surfels, -9900, 0) < here);
+  // The others as rivals, and as what tells of chance.
+  BOOST_TEST(odds(&Evidence::tried, 0, 0.1) < here);
+  BOOST_TEST(odds(&Evidence::fuller, 0, 0.1) < here);
+}
+
+BOOST_AUTO_TEST_CASE(poses_that_are_alike_share_what_one_of_them_would_have)
+{
+  const double alone = some_poses(1, good, poor).front().probability;
+  BOOST_TEST(alone > 0.9);
+  const auto two = some_poses(2, good, good);
+  BOOST_TEST(two[0].probability == two[1].probability, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(two[0].probability < 0.5);
+  for (std::size_t n : {2u, 3u, 10u}) {
+    const auto poses = some_poses(n, good, poor);
+    BOOST_TEST(poses.front().log_odds > poses.back().log_odds);
+    for (std::size_t i = 2; i < n; ++i) BOOST_TEST(poses[i].probability == poses[1].probability);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(probabilities_of_poses_and_of_none_add_up_to_one)
 {
   CR::internal::Evidence_coefficients c;
-  c.lapse = 0.03;
-  for (const double x : {-800., -3., 0., 5., 800.}) {
-    std::vector<CR::internal::Judged_pose> poses(2);
-    poses[0].log_odds = x;
-    poses[1].log_odds = 1;
-    CR::internal::share_probability(poses, c);
-    // By way of the one that is greatest.
-    const double greatest = (std::max)(x, 1.),
-                 all = std::exp(-greatest) + std::exp(x - greatest) + std::exp(1 - greatest);
-    BOOST_TEST(poses[0].probability == 0.97 * std::exp(x - greatest) / all + 0.01, boost::test_tools::tolerance(1e-12));
-    const double none = 0.97 * std::exp(-greatest) / all + 0.01;
-    BOOST_TEST(poses[0].probability + poses[1].probability + none == 1, boost::test_tools::tolerance(1e-12));
-  }
+  c.share.lapse = 0.03;
+  // The log-odds that one of two poses is right, whatever the evidence is.
+  for (const double odds : {-800., -3., 0., 5., 800.})
+    for (const double second : {-800., 0., 3.})
+      for (const bool is_usual : {false, true}) {
+        c.any = {0, 0, 0, 0, is_usual ? 77 : odds, 0.04};
+        c.usual_any = {0, 0, 0, 0, is_usual ? odds : 77, 0.04};
+        std::vector<Judged_pose> poses(2);
+        poses[1].log_weight = second;
+        CR::internal::share_probability(poses, is_usual, c);
+        const double any = 0.96 * (odds < 0 ? std::exp(odds) / (1 + std::exp(odds)) : 1 / (1 + std::exp(-odds))) + 0.02,
+                     share = std::exp(second) / (1 + std::exp(second));
+        BOOST_TEST(poses[1].probability == any * (0.97 * share + 0.015), boost::test_tools::tolerance(1e-12));
+        BOOST_TEST(poses[0].probability + poses[1].probability == any, boost::test_tools::tolerance(1e-12));
+        BOOST_TEST(poses[1].log_odds - poses[0].log_odds == second, boost::test_tools::tolerance(1e-9));
+        BOOST_TEST(CR::internal::probability_of_any(poses) == any, boost::test_tools::tolerance(1e-12));
+      }
+  std::vector<Judged_pose> none;
+  CR::internal::share_probability(none, false, c);
+  BOOST_TEST(none.empty());
 }
 
 BOOST_AUTO_TEST_CASE(without_free_space_nothing_is_violated)

@@ -140,8 +140,8 @@ public:
   /// at most 1/2 where the overlap leaves motions free. At least 0.9 if and only if `REGISTERED`.
   double confidence() const { return m_parts.confidence; }
 
-  /// The natural logarithm of the odds that transformation() is right, against none being right: what the evidence
-  /// says of it alone, whatever its rivals; the larger, the better. 0 if there is no motion at all.
+  /// The natural logarithm of the odds that transformation() is right, against none of the distinct motions being
+  /// right; the larger, the better. 0 if there is no motion at all.
   double score() const { return m_parts.score; }
 
   /// The share of the source's surface that has the target close by, with its normal, under transformation().

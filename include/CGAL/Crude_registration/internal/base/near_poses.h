@@ -16,7 +16,10 @@
 
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -44,6 +47,19 @@ inline bool is_nearer(const Pose& a, const Pose& b, const Pose& to, float extent
     return r * r * (p.rotation - to.rotation).squaredNorm() + (p.translation - to.translation).squaredNorm();
   };
   return distance(a) < distance(b);
+}
+
+// The poses of the first `number` candidates of which no two count as one.
+template <class Candidate>
+std::vector<Pose> first_distinct(const std::vector<Candidate>& candidates, std::size_t number, float extent)
+{
+  std::vector<Pose> poses;
+  for (const Candidate& c : candidates) {
+    if (poses.size() == number) break;
+    if (std::none_of(poses.begin(), poses.end(), [&](const Pose& p) { return are_one(c.pose, p, extent); }))
+      poses.push_back(c.pose);
+  }
+  return poses;
 }
 
 } // namespace internal

@@ -60,11 +60,12 @@ inline double usual_evidence(const std::uint8_t* outcomes, std::size_t n,
 class Chance
 {
 public:
-  // `table`: the outcomes under distinct candidates; kept by reference, not to be changed.
-  explicit Chance(const Outcome_table& table, const Evidence_coefficients& coefficients = {})
-      : m_table(table), m_coefficients(coefficients), m_counts(table.probes())
+  // `table`: the outcomes under distinct candidates; kept by reference, not to be changed. `rows`: those that count.
+  Chance(const Outcome_table& table, const std::vector<std::size_t>& rows,
+         const Evidence_coefficients& coefficients = {})
+      : m_table(table), m_coefficients(coefficients), m_rows(rows.size()), m_counts(table.probes())
   {
-    for (std::size_t k = 0; k < table.poses(); ++k) {
+    for (const std::size_t k : rows) {
       for (std::size_t i = 0; i < table.probes(); ++i) {
         const std::uint8_t o = table[k][i];
         if (o == Outcome::UNKNOWN) continue;
@@ -76,7 +77,8 @@ public:
       for (std::size_t kind = 0; kind < Outcome::kinds; ++kind) m_kinds[kind] += double(c[kind]);
   }
 
-  // Evidence for a pose under which the probes have those outcomes, in nats, the candidates `near` it left out.
+  // Evidence for a pose under which the probes have those outcomes, in nats, the candidates `near` it left out, which
+  // are of those that count.
   double evidence(const std::uint8_t* outcomes, const std::vector<std::size_t>& near) const
   {
     std::array<double, Outcome::kinds> kinds = m_kinds;
@@ -92,7 +94,7 @@ public:
     // One count for each kind, and for none of them, as Laplace's rule has it, in the proportions of the pair's mean,
     // that has one candidate's worth of what is usual in it.
     constexpr double pseudo = Outcome::kinds + 1;
-    const double candidates = double(m_table.poses() - near.size()), probes = double(m_table.probes());
+    const double candidates = double(m_rows - near.size()), probes = double(m_table.probes());
     std::array<double, Outcome::kinds> prior, log_right;
     for (std::size_t kind = 0; kind < Outcome::kinds; ++kind) {
       prior[kind] = pseudo * (kinds[kind] / probes + m_coefficients.wrong[kind]) / (candidates + 1);
@@ -100,7 +102,7 @@ public:
     }
     const std::array<double, Outcome::SIZE> fit = log_ratios_of_fits(fits);
     // By how often what came of a probe did so under the candidates, which are few.
-    const std::size_t counts = m_table.poses() - near.size() + 1;
+    const std::size_t counts = m_rows - near.size() + 1;
     std::vector<double> log_ratios(Outcome::kinds * counts);
     for (std::size_t kind = 0; kind < Outcome::kinds; ++kind)
       for (std::size_t n = 0; n < counts; ++n) {
@@ -138,6 +140,7 @@ private:
 
   const Outcome_table& m_table;
   const Evidence_coefficients m_coefficients;
+  const std::size_t m_rows;
   std::vector<std::array<std::int32_t, Outcome::kinds>> m_counts; // by probe
   std::array<double, Outcome::kinds> m_kinds{};
   std::array<double, Outcome::SIZE> m_fits{};

@@ -32,9 +32,9 @@ struct Agreement
 // What the outcomes of the probes say for a pose.
 struct Pose_evidence
 {
-  double nats = 0;  // a probe: of log( P(outcome | right) / P(outcome | chance) ), as chance is between the two scans
-  double usual = 0; // the same, as chance is between any two scans
-  double rival = 0; // the most usual evidence of a distinct candidate elsewhere, at least 0
+  // A probe, of log( P(outcome | right) / P(outcome | chance) ): as chance is among the candidates that the search has
+  // tried, among these and some that it has dropped, and between any two scans.
+  double tried = 0, fuller = 0, usual = 0;
   double residual = 0;   // root mean square of the probes that agree, in tolerances
   double violations = 0; // probes in free space, for each that agrees
   double surfels = 0;    // of the scan with fewer
@@ -47,8 +47,8 @@ struct Judged_pose
   Pose proposed;                 // before the refinement
   Correspondence correspondence; // that has given `proposed`, where it is known
   Pose_evidence evidence;
-  double log_odds = 0; // of being right, against there being no right one, as chance is between the two scans
-  double usual_log_odds = 0;
+  double log_weight = 0;  // by which it shares the probability that one of the distinct poses is right
+  double log_odds = 0;    // of being right, against there being no right one
   double probability = 0; // of being right, among all distinct poses and none of them
 };
 

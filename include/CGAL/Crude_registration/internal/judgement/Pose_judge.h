@@ -72,14 +72,14 @@ public:
       if (!round.correspondences.empty()) poses[i].correspondence = round.correspondences[best[i].index];
     });
     if (m_control.is_stopped()) return;
-    add_candidates(round.tried);
+    add_candidates(round);
     if (m_control.is_stopped()) return;
     const std::size_t old = m_judged.size();
     m_judged.insert(m_judged.end(), poses.begin(), poses.end());
     m_judged_source_outcomes.resize(m_judged.size(), m_source_probes.size());
     m_judged_target_outcomes.resize(m_judged.size(), m_target_probes.size());
-    m_source_chance.emplace(m_source_outcomes, m_coefficients);
-    m_target_chance.emplace(m_target_outcomes, m_coefficients);
+    m_chance.emplace(*this, m_tried_rows);
+    m_fuller_chance.emplace(*this, m_all_rows);
     for_each_index(m_execution, m_judged.size(), to_the_end(), [&](std::size_t i) {
       std::uint8_t *const source = m_judged_source_outcomes[i], *const target = m_judged_target_outcomes[i];
       if (i >= old) look(m_judged[i].pose, source, target);
@@ -92,22 +92,25 @@ public:
   std::size_t number_of_judged() const { return m_judged.size(); }
 
   // The distinct poses of all rounds, most probable first: of each the best, with the proposal that is nearest to it of
-  // those that have led there. Their probabilities and that of none of them add up to one.
-  std::vector<Judged_pose> distinct_poses() const
+  // those that have led there. Their probabilities and that of none of them add up to one. `is_usual`: as chance is
+  // between any two scans; where the scans fit each other in many ways, what is usual for this pair tells none from
+  // others.
+  std::vector<Judged_pose> distinct_poses(bool is_usual = false) const
   {
-    std::vector<Judged_pose> poses = distinct_by(&Judged_pose::log_odds);
-    share_probability(poses, m_coefficients);
-    return poses;
-  }
-
-  // The same as chance is between any two scans: where the scans fit each other in many ways, what is usual for this
-  // pair tells none from the others.
-  std::vector<Judged_pose> usual_distinct_poses() const
-  {
-    std::vector<Judged_pose> poses = distinct_by(&Judged_pose::usual_log_odds);
-    for (Judged_pose& p : poses) p.log_odds = p.usual_log_odds;
-    share_probability(poses, m_coefficients);
-    return poses;
+    std::vector<Judged_pose> sorted = m_judged, distinct;
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Judged_pose& a, const Judged_pose& b) { return a.log_weight > b.log_weight; });
+    for (const Judged_pose& p : sorted) {
+      const auto same = std::find_if(distinct.begin(), distinct.end(),
+                                     [&](const Judged_pose& d) { return are_one(p.pose, d.pose, m_extent); });
+      if (same == distinct.end()) distinct.push_back(p);
+      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) {
+        same->proposed = p.proposed;
+        same->correspondence = p.correspondence;
+      }
+    }
+    share_probability(distinct, is_usual, m_coefficients);
+    return distinct;
   }
 
   // A pose as it is.
@@ -148,8 +151,9 @@ public:
     return judged;
   }
 
-  // The distinct candidates so far, and what the probes of either scan meet under them.
+  // The distinct candidates so far, those of them that were tried, and what the probes of either scan meet under them.
   const std::vector<Pose>& candidates() const { return m_candidates; }
+  const std::vector<std::size_t>& tried_candidates() const { return m_tried_rows; }
   const Outcome_table& source_outcomes() const { return m_source_outcomes; }
   const Outcome_table& target_outcomes() const { return m_target_outcomes; }
 
@@ -164,44 +168,41 @@ public:
 private:
   static constexpr std::size_t evidence_probes = 1500; // of either scan
 
-  std::vector<Judged_pose> distinct_by(double Judged_pose::*key) const
+  // Chance is known from so many distinct candidates, where there are as many: what the first round keeps.
+  static constexpr std::size_t fewest_candidates = 32;
+
+  // What the probes of either scan meet by chance.
+  struct Pair_chance
   {
-    std::vector<Judged_pose> sorted = m_judged, distinct;
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [key](const Judged_pose& a, const Judged_pose& b) { return a.*key > b.*key; });
-    for (const Judged_pose& p : sorted) {
-      const auto same = std::find_if(distinct.begin(), distinct.end(),
-                                     [&](const Judged_pose& d) { return are_one(p.pose, d.pose, m_extent); });
-      if (same == distinct.end()) distinct.push_back(p);
-      else if (is_nearer(p.proposed, same->proposed, same->pose, m_extent)) {
-        same->proposed = p.proposed;
-        same->correspondence = p.correspondence;
-      }
-    }
-    return distinct;
-  }
+    Pair_chance(const Pose_judge& judge, const std::vector<std::size_t>& rows)
+        : source(judge.m_source_outcomes, rows, judge.m_coefficients),
+          target(judge.m_target_outcomes, rows, judge.m_coefficients)
+    {}
+
+    Chance source, target;
+  };
 
   // Where planes slide along each other, refinement ends beside the best pose, and from elsewhere in another place: the
   // leading poses that are in doubt are refined from each of the search's poses around them, too. The best one counts.
   void refine_leaders()
   {
     constexpr std::size_t most_leaders = 2; // the best and its rival
-    const double doubt = std::log(certain / (1 - certain));
-    std::vector<Judged_pose> leaders = distinct_by(&Judged_pose::log_odds);
+    std::vector<Judged_pose> leaders = distinct_poses();
     if (leaders.size() > most_leaders) leaders.resize(most_leaders);
     for (const Judged_pose& leader : leaders) {
-      if (!(std::abs(leader.log_odds) < doubt)) continue;
+      if (leader.probability <= 1 - certain || leader.probability >= certain) continue;
       std::vector<Pose> starts;
       for (const Pose& p : m_tried)
         if (are_one(p, leader.pose, m_extent)) starts.push_back(p);
       std::vector<Judged_pose> ends(starts.size(), leader);
       for_each_index(m_execution, starts.size(), to_the_end(), [&](std::size_t i) {
         const Judged_pose end = weighed(refined(starts[i]));
-        if (end.log_odds > leader.log_odds) ends[i] = with_proposal(end, leader);
+        if (end.log_weight > leader.log_weight) ends[i] = with_proposal(end, leader);
       });
-      const auto best = std::max_element(
-          ends.begin(), ends.end(), [](const Judged_pose& a, const Judged_pose& b) { return a.log_odds < b.log_odds; });
-      if (best != ends.end() && best->log_odds > leader.log_odds) add(*best);
+      const auto best = std::max_element(ends.begin(), ends.end(), [](const Judged_pose& a, const Judged_pose& b) {
+        return a.log_weight < b.log_weight;
+      });
+      if (best != ends.end() && best->log_weight > leader.log_weight) add(*best);
     }
   }
 
@@ -220,20 +221,40 @@ private:
     look(pose.pose, m_judged_source_outcomes[m_judged.size() - 1], m_judged_target_outcomes[m_judged.size() - 1]);
   }
 
-  // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose.
-  void add_candidates(const std::vector<Pose>& poses)
+  // Candidates that are none of the earlier ones: they crowd at some poses, and chance is one opinion a pose. Between
+  // planes nearly all of them crowd, and some that were dropped are taken, too.
+  void add_candidates(const Proposals& round)
   {
-    const std::size_t old = m_candidates.size();
-    for (const Pose& p : poses)
-      if (std::none_of(m_candidates.begin(), m_candidates.end(),
-                       [&](const Pose& q) { return are_one(p, q, m_extent); }))
-        m_candidates.push_back(p);
+    std::vector<std::size_t> changed;
+    const auto row_of = [&](const Pose& p) {
+      return std::size_t(std::find_if(m_candidates.begin(), m_candidates.end(),
+                                      [&](const Pose& q) { return are_one(p, q, m_extent); }) -
+                         m_candidates.begin());
+    };
+    const auto put = [&](std::size_t row, const Pose& p) {
+      if (row == m_candidates.size()) {
+        m_candidates.emplace_back();
+        m_all_rows.push_back(row);
+      }
+      m_candidates[row] = p;
+      changed.push_back(row);
+    };
+    for (const Pose& p : round.tried) {
+      const std::size_t row = row_of(p);
+      if (std::find(m_tried_rows.begin(), m_tried_rows.end(), row) != m_tried_rows.end()) continue;
+      put(row, p);
+      m_tried_rows.push_back(row);
+    }
+    for (const Pose& p : round.dropped) {
+      if (m_candidates.size() >= fewest_candidates) break;
+      const std::size_t row = row_of(p);
+      if (row == m_candidates.size()) put(row, p);
+    }
     m_source_outcomes.resize(m_candidates.size(), m_source_probes.size());
     m_target_outcomes.resize(m_candidates.size(), m_target_probes.size());
-    m_usual_evidence.resize(m_candidates.size());
-    for_each_index(m_execution, m_candidates.size() - old, m_control, [&](std::size_t i) {
-      look(m_candidates[old + i], m_source_outcomes[old + i], m_target_outcomes[old + i]);
-      m_usual_evidence[old + i] = usual(m_source_outcomes[old + i], m_target_outcomes[old + i]);
+    for_each_index(m_execution, changed.size(), m_control, [&](std::size_t i) {
+      const std::size_t row = changed[i];
+      look(m_candidates[row], m_source_outcomes[row], m_target_outcomes[row]);
     });
   }
 
@@ -243,23 +264,9 @@ private:
     probe_outcomes(m_target_probes, m_source, pose.inverse(), m_tolerance, target);
   }
 
-  // The evidence of a probe as chance is between any two scans.
-  double usual(const std::uint8_t* source, const std::uint8_t* target) const
-  {
-    return (usual_evidence(source, m_source_probes.size(), m_usual) +
-            usual_evidence(target, m_target_probes.size(), m_usual)) /
-           double(m_source_probes.size() + m_target_probes.size());
-  }
-
   // `source`, `target`: the outcomes under the pose.
   void weigh(Judged_pose& judged, const std::uint8_t* source, const std::uint8_t* target) const
   {
-    std::vector<std::size_t> near;
-    judged.evidence.rival = 0;
-    for (std::size_t k = 0; k < m_candidates.size(); ++k) {
-      if (are_one(judged.pose, m_candidates[k], m_extent)) near.push_back(k);
-      else judged.evidence.rival = (std::max)(judged.evidence.rival, m_usual_evidence[k]);
-    }
     // The middle of each bin of the residuals.
     constexpr std::array<double, Outcome::residual_bins> residuals = {0.0625, 0.1875, 0.375, 0.75};
     double agreeing = 1, violating = 0, squares = residuals.back() * residuals.back(); // as if one more agreed, badly
@@ -276,13 +283,23 @@ private:
     add(source, m_source_probes.size());
     add(target, m_target_probes.size());
     const auto probes = double(m_source_probes.size() + m_target_probes.size());
-    judged.evidence.nats = (m_source_chance->evidence(source, near) + m_target_chance->evidence(target, near)) / probes;
-    judged.evidence.usual = usual(source, target);
+    const auto evidence = [&](const Pair_chance& chance, const std::vector<std::size_t>& rows) {
+      std::vector<std::size_t> near;
+      for (const std::size_t k : rows)
+        if (are_one(judged.pose, m_candidates[k], m_extent)) near.push_back(k);
+      return (chance.source.evidence(source, near) + chance.target.evidence(target, near)) / probes;
+    };
+    judged.evidence.tried = evidence(*m_chance, m_tried_rows);
+    judged.evidence.fuller = evidence(*m_fuller_chance, m_all_rows);
+    judged.evidence.usual = (usual_evidence(source, m_source_probes.size(), m_usual) +
+                             usual_evidence(target, m_target_probes.size(), m_usual)) /
+                            probes;
     judged.evidence.residual = std::sqrt(squares / agreeing);
     judged.evidence.violations = violating / agreeing;
     judged.evidence.surfels = double((std::min)(m_source.fine.surfels.size(), m_target.fine.surfels.size()));
-    judged.log_odds = log_odds(judged.evidence, m_coefficients);
-    judged.usual_log_odds = usual_log_odds(judged.evidence, judged.evidence.usual, m_coefficients);
+    // Where a body fits itself in several ways, most that was tried is one of these, and what they have in common says
+    // nothing for any of them.
+    judged.log_weight = log_weight(judged.evidence, judged.evidence.tried, m_coefficients);
   }
 
   const Reduced_scan& m_source;
@@ -298,9 +315,9 @@ private:
   const Probe_tolerance m_tolerance;
   std::vector<Pose> m_candidates; // distinct; with what the probes of the source and of the target meet under them
   Outcome_table m_source_outcomes, m_target_outcomes;
-  std::vector<double> m_usual_evidence;                   // of the candidates, a probe
-  std::optional<Chance> m_source_chance, m_target_chance; // by the candidates so far
-  std::vector<Pose> m_tried;                              // of all rounds
+  std::vector<std::size_t> m_tried_rows, m_all_rows;    // of the candidates: those that were tried, and all
+  std::optional<Pair_chance> m_chance, m_fuller_chance; // by the ones, and by the others
+  std::vector<Pose> m_tried;                            // of all rounds
   std::vector<Judged_pose> m_judged;
   Outcome_table m_judged_source_outcomes, m_judged_target_outcomes;
 };

@@ -31,6 +31,7 @@ struct Proposals
   std::size_t judged = 0;     // so many of them, after refinement, are worth a close look
   bool are_estimated = false; // from all of the surface that agrees under them, not from a few correspondences
   std::vector<Pose> tried;    // where they are, all that were
+  std::vector<Pose> dropped;  // distinct ones that were not worth a try, best first; or none at all
   std::vector<Correspondence> correspondences; // that have given the poses, in the own frames; or none at all
 };
 

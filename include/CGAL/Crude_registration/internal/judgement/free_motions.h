@@ -90,10 +90,10 @@ inline Free_motions name_free_motions(const std::vector<Vector_6>& free, const V
 // The small motions (w, v) that the scans leave free, most uncertain first: those two spacings of the simplified
 // surface further along which, either way, the pose is so probable that were it a rival the first would not be
 // believed. What the information matrix says is uncertain is where to look; whether it is free, the evidence says.
-// `log_odds`: by which of the two kinds of chance.
-inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, double Judged_pose::*log_odds,
-                                               const Rigid_motion& motion, const Matrix_6& covariance,
-                                               const Vector& centre, double radius, double spacing)
+// `is_usual`: as chance is between any two scans.
+inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, bool is_usual, const Rigid_motion& motion,
+                                               const Matrix_6& covariance, const Vector& centre, double radius,
+                                               double spacing)
 {
   // In units of length, about the centre.
   const Matrix cross = cross_matrix(centre);
@@ -104,7 +104,11 @@ inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, double J
   from_centre.bottomLeftCorner<3, 3>() = cross / radius;
   const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(to_centre * covariance * to_centre.transpose());
   const Pose here = to_pose(motion);
-  const double rival = judge.weighed(here).*log_odds - std::log(believed / (1 - believed));
+  const auto weight_of = [&](const Pose& pose) {
+    const Pose_evidence evidence = judge.weighed(pose).evidence;
+    return log_weight(evidence, is_usual ? evidence.usual : evidence.fuller);
+  };
+  const double rival = weight_of(here) - std::log(believed / (1 - believed));
   // Whether a pose is still as far away as half of what it was moved by.
   const auto is_away = [&](const Pose& p) {
     const double turn = radius * double((p.rotation - here.rotation).norm()) / std::sqrt(2.);
@@ -115,12 +119,11 @@ inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, double J
     const Vector_6 twist = from_centre * eigen.vectors.col(k);
     const auto moved = [&](double distance) {
       const Pose there = to_pose(exponential(twist, distance) * motion);
-      const double odds = judge.weighed(there).*log_odds;
-      // Less probable than that nothing is right, it is not worth another look.
-      if (odds >= rival || odds < 0) return odds;
+      const double weight = weight_of(there);
+      if (weight >= rival) return weight;
       // The motion is known to some digits only; what is free stays where refinement finds it.
       const Pose refined = judge.refined(there);
-      return is_away(refined) ? (std::max)(odds, judge.weighed(refined).*log_odds) : odds;
+      return is_away(refined) ? (std::max)(weight, weight_of(refined)) : weight;
     };
     if ((std::max)(moved(2 * spacing), moved(-2 * spacing)) < rival) break;
     free.push_back(twist);

@@ -12,7 +12,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_LOG_ODDS_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_LOG_ODDS_H
 
-// From evidence to probability.
+// From evidence to probabilities.
 
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
 #include <CGAL/Crude_registration/internal/judgement/evidence_coefficients.h>
@@ -25,37 +25,71 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// The logarithm of the odds that a pose is right, against none being right, as chance is between any two scans, but for
-// the slope of what the probes say. What they say grows with the area that agrees, and so does its variance: the root
+// The root of evidence, `nats` a probe. Evidence grows with the area that agrees, and so does its variance: the root
 // tells how far it is from chance. Probes side by side say the same, so that it matters little how many there are,
-// unless they are few. The residual tells wrong poses, which fill the tolerance evenly, and what is in free space is
-// there together, and says more than its probes. `nats`: of the evidence.
-inline double usual_log_odds(const Pose_evidence& evidence, double nats, const Evidence_coefficients& c = {})
+// unless they are few.
+inline double root_of_evidence(const Pose_evidence& evidence, double nats, const Evidence_coefficients& c)
 {
-  const double effective = evidence.surfels / (evidence.surfels + c.surfels);
-  return c.slope * std::sqrt(effective * (std::max)(nats, 0.)) + c.residual * evidence.residual +
-         c.violations * std::sqrt(evidence.violations) + c.offset;
+  return std::sqrt(evidence.surfels / (evidence.surfels + c.surfels) * (std::max)(nats, 0.));
 }
 
-// The same as chance is between the two scans: the evidence is weighed by it, and by how far the pose leads the best
-// candidate elsewhere. Where the scans fit each other in part in many ways, chance explains a right pose away, but no
-// other one comes near it.
-inline double log_odds(const Pose_evidence& evidence, const Evidence_coefficients& c = {})
+// The residual tells wrong poses, which fill the tolerance evenly, and what is in free space is there together, and
+// says more than its probes.
+inline double law_of_evidence(const Evidence_law& law, double root, double lead, const Pose_evidence& evidence)
 {
-  const double lead = std::sqrt((std::max)(evidence.usual, 0.)) - std::sqrt(evidence.rival);
-  return usual_log_odds(evidence, evidence.nats, c) + c.lead * lead;
+  return law.slope * root + law.residual * evidence.residual + law.violations * std::sqrt(evidence.violations) +
+         law.lead * lead + law.offset;
 }
 
-// The probabilities of n distinct poses: P_k = (1 - l) exp(x_k) / (1 + sum_j exp(x_j)) + l / (n + 1), x the log-odds,
-// the one being for none of them (conditional logit, McFadden 1974), l the share of answers that obey no such law.
-inline void share_probability(std::vector<Judged_pose>& poses, const Evidence_coefficients& c = {})
+// The logarithm of how probable a pose is beside others, if one of them is right; `nats`: of the evidence.
+inline double log_weight(const Pose_evidence& evidence, double nats, const Evidence_coefficients& c = {})
 {
-  double greatest = 0;
-  for (const Judged_pose& p : poses) greatest = (std::max)(greatest, p.log_odds);
-  double sum = std::exp(-greatest);
-  for (const Judged_pose& p : poses) sum += std::exp(p.log_odds - greatest);
-  for (Judged_pose& p : poses)
-    p.probability = (1 - c.lapse) * std::exp(p.log_odds - greatest) / sum + c.lapse / double(poses.size() + 1);
+  return law_of_evidence(c.share, root_of_evidence(evidence, nats, c), 0, evidence);
+}
+
+// Of distinct poses that with the greatest weight, the root of its evidence, and how far it leads the mean of the roots
+// of all others and of one that has none. `is_usual`: as chance is between any two scans.
+struct Leading_pose
+{
+  const Judged_pose* pose;
+  double root, lead;
+};
+
+// \pre There is a pose.
+inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c)
+{
+  const auto best = std::max_element(poses.begin(), poses.end(), [](const Judged_pose& a, const Judged_pose& b) {
+    return a.log_weight < b.log_weight;
+  });
+  const auto root = [&](const Judged_pose& p) {
+    return root_of_evidence(p.evidence, is_usual ? p.evidence.usual : p.evidence.fuller, c);
+  };
+  double others = 0;
+  for (auto p = poses.begin(); p != poses.end(); ++p)
+    if (p != best) others += root(*p);
+  return {&*best, root(*best), root(*best) - others / double(poses.size())};
+}
+
+// Two questions, each with a law of its own: is one of the distinct poses right, and if so, which one? (A nested logit,
+// McFadden 1978.) With x the log-odds of the first, w_k the weights of the second, and l and m the shares of answers
+// that obey no such law,
+//   P(any) = (1 - l) / (1 + exp(-x)) + l / 2,  P_k = P(any) ((1 - m) w_k / sum_j w_j + m / n).
+// x is of the leading pose: all poses were refined until they fit as well as they can, so that its lead tells how much
+// comes by chance between these two scans. `is_usual`: as chance is between any two scans, whatever the others are.
+inline void share_probability(std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c = {})
+{
+  if (poses.empty()) return;
+  const Leading_pose leading = leading_pose(poses, is_usual, c);
+  const Evidence_law& law = is_usual ? c.usual_any : c.any;
+  const double log_odds = law_of_evidence(law, leading.root, leading.lead, leading.pose->evidence),
+               any = (1 - law.lapse) / (1 + std::exp(-log_odds)) + law.lapse / 2, greatest = leading.pose->log_weight;
+  double sum = 0;
+  for (const Judged_pose& p : poses) sum += std::exp(p.log_weight - greatest);
+  for (Judged_pose& p : poses) {
+    const double share = std::exp(p.log_weight - greatest) / sum;
+    p.log_odds = log_odds + p.log_weight - greatest - std::log(sum);
+    p.probability = any * ((1 - c.share.lapse) * share + c.share.lapse / double(poses.size()));
+  }
 }
 
 // The probability that any of some distinct poses is right.

@@ -109,6 +109,7 @@ public:
     m_scores.count += candidates.size();
     // More probes for fewer candidates: most are told to be wrong by the first few.
     narrow(candidates, 12, (std::max)(8 * round.kept, candidates.size() / 8), control);
+    proposals.dropped = first_distinct(candidates, m_parameters.rounds.front().kept, m_extent);
     narrow(candidates, 40, 4 * round.kept, control);
     score(candidates, 100, 0, control);
     std::vector<Pose> kept;

@@ -138,8 +138,8 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   std::vector<Vector_6> free;
   // What is not to be believed at all has no free motions.
   if (probability_of_any(outcome.poses) >= plausible)
-    free = find_free_motions(judge, is_of_many ? &Judged_pose::usual_log_odds : &Judged_pose::log_odds, own,
-                             refinement.covariance, own.translation, radius, double(source.coarse.spacing));
+    free = find_free_motions(judge, is_of_many, own, refinement.covariance, own.translation, radius,
+                             double(source.coarse.spacing));
   for (Vector_6& m : free) m = to_input * m;
   const Vector centre = outcome.target_frame.inverse()(own.translation);
   const Free_motions named = name_free_motions(free, outcome.is_swapped ? outcome.motion(centre) : centre, radius);
@@ -204,9 +204,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const
 {
   return registration_of(
       a, b, make_candidates, execution, control,
-      [](const Pose_judge& judge, bool is_usual) {
-        return is_usual ? judge.usual_distinct_poses() : judge.distinct_poses();
-      },
+      [](const Pose_judge& judge, bool is_usual) { return judge.distinct_poses(is_usual); },
       [](const Pose_judge& judge) { return Pose_judge::is_certain(judge.distinct_poses()); });
 }
 
@@ -221,15 +219,14 @@ CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Redu
       target.own_from_input * (is_swapped ? motion.inverse() : motion) * source.own_from_input.inverse();
   // The given one takes the place of what the search found of it.
   const auto poses = [&](const Pose_judge& judge, bool is_usual) {
-    std::vector<Judged_pose> others = is_usual ? judge.usual_distinct_poses() : judge.distinct_poses();
+    const std::vector<Judged_pose> others = judge.distinct_poses(is_usual);
     if (others.empty()) return others; // nothing is known of chance
     Judged_pose given = judge.weighed(judge.refined(to_pose(own)));
     given.proposed = to_pose(own);
-    if (is_usual) given.log_odds = given.usual_log_odds;
     std::vector<Judged_pose> all = {given};
     for (const Judged_pose& p : others)
       if (!judge.are_same(p.pose, given.pose)) all.push_back(p);
-    share_probability(all);
+    share_probability(all, is_usual);
     return all;
   };
   Judgement_outcome outcome;
