@@ -220,14 +220,17 @@ struct Choice
 {
   std::vector<CRI::Pose_evidence> poses;
   int right;
-  std::size_t setting;
+  std::size_t setting, search; // the number of the search, rounds of which follow each other
 };
 
 std::vector<Choice> choices_of(const Generation& generation, const Coefficients& coefficients)
 {
   std::vector<Choice> choices;
-  for_each_pair(generation, coefficients, [&](const Pair& pair, const CRI::Pose_judge& judge, int) {
+  std::size_t searches = 0;
+  for_each_pair(generation, coefficients, [&](const Pair& pair, const CRI::Pose_judge& judge, int round) {
     Choice choice;
+    searches += std::size_t(round == 0);
+    choice.search = searches;
     choice.right = -1;
     choice.setting = pair.setting;
     for (const CRI::Judged_pose& p : judge.distinct_poses()) {
@@ -375,6 +378,22 @@ Answer answer(const Choice& choice, const Coefficients& c)
   return {best->probability, best - poses.begin() == choice.right};
 }
 
+// Of the answers to the choices, those that are given: a search ends as soon as a pose is certain, or after its last
+// round.
+std::vector<Answer> given(const std::vector<Choice>& choices, const std::vector<Answer>& answers)
+{
+  std::vector<Answer> result;
+  for (std::size_t i = 0; i < choices.size();) {
+    std::size_t end = i;
+    while (end < choices.size() && choices[end].search == choices[i].search) ++end;
+    std::size_t last = i;
+    while (last + 1 < end && answers[last].probability < CRI::certain) ++last;
+    result.push_back(answers[last]);
+    i = end;
+  }
+  return result;
+}
+
 struct Calibration
 {
   double brier = 0, error = 0; // expected calibration error
@@ -491,8 +510,9 @@ int main(int argc, char** argv)
 
     std::vector<Answer> answers;
     if (values.count("check") != 0) {
-      for (const Choice& choice : choices_of(generation, {})) answers.push_back(answer(choice, {}));
-      const Calibration calibration = print_reliability(answers);
+      const std::vector<Choice> choices = choices_of(generation, {});
+      for (const Choice& choice : choices) answers.push_back(answer(choice, {}));
+      const Calibration calibration = print_reliability(given(choices, answers));
       // As many as may be wrong by the probabilities themselves, and twice their standard deviation.
       const double expected = (1 - CRI::believed) * double(calibration.believed);
       const bool is_calibrated =
@@ -508,19 +528,25 @@ int main(int argc, char** argv)
     const std::vector<Choice> choices = choices_of(generation, tables);
     const std::size_t settings = choices.empty() ? 0 : choices.back().setting + 1;
     const Coefficients c = fit(choices, tables);
+    answers.resize(choices.size());
     for (std::size_t without = 0; without < settings; ++without) {
       const Coefficients others = fit_without(without, choices, c);
-      for (const Choice& choice : choices)
-        if (choice.setting == without) answers.push_back(answer(choice, others));
+      for (std::size_t i = 0; i < choices.size(); ++i)
+        if (choices[i].setting == without) answers[i] = answer(choices[i], others);
     }
+    std::cout << "After each round:\n";
+    print_reliability(answers);
+    answers = given(choices, answers);
+    std::cout << "At the end of each search:\n";
     const Calibration calibration = print_reliability(answers);
     if (!output.empty()) {
       std::ostringstream how;
       how << "// " << settings << " settings, seeds " << generation.first_seed << " to "
-          << generation.first_seed + generation.seeds - 1 << ", " << choices.size()
-          << " answers; in cross-validation by setting the Brier\n// score is " << std::setprecision(3)
-          << calibration.brier << ", the expected calibration error " << calibration.error << ", and of "
-          << calibration.believed << " answers that were believed\n// " << calibration.believed_and_wrong
+          << generation.first_seed + generation.seeds - 1 << ", " << choices.size() << " rounds of " << answers.size()
+          << " searches. In cross-validation by setting\n// the answers at the end of the searches have the Brier "
+             "score "
+          << std::setprecision(3) << calibration.brier << " and the expected calibration error " << calibration.error
+          << ", and\n// of " << calibration.believed << " that were believed " << calibration.believed_and_wrong
           << " were wrong.\n";
       CR::write_file(output, [&](std::ostream& out) { write_header(out, c, how.str()); });
     }

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -77,19 +78,22 @@ inline Assembly_edge assembly_edge(const Placed_scans& placed, const Parts& part
 // Why a scan is alone.
 inline std::string reason_alone(std::size_t scan, const Assembly_outcome& outcome)
 {
-  std::size_t tried = 0, best = 0;
+  std::set<std::size_t> tried, fitting; // other scans: some are tried again as part of a surface
   const Assembly_edge* doubtful = nullptr;
   for (const Assembly_edge& e : outcome.edges) {
     if (e.source != scan && e.target != scan) continue;
-    ++tried;
-    if (e.status == NOT_CONNECTING && (!doubtful || e.confidence > doubtful->confidence)) doubtful = &e;
-    best += e.status == NOT_CONNECTING;
+    const std::size_t other = e.source == scan ? e.target : e.source;
+    tried.insert(other);
+    if (e.status != NOT_CONNECTING) continue;
+    if (!doubtful || e.confidence > doubtful->confidence) doubtful = &e;
+    fitting.insert(other);
   }
   if (outcome.is_interrupted) return "interrupted before it was connected";
-  if (tried == 0) return "there is no other scan";
+  if (tried.empty()) return "there is no other scan";
   if (doubtful)
-    return "no pair is certain enough: the best of " + std::to_string(best) + " that may fit: " + doubtful->reason;
-  return "no overlap found with any of the " + std::to_string(tried) + " scans tried";
+    return "no pair is certain enough: the best of " + std::to_string(fitting.size()) +
+           " that may fit: " + doubtful->reason;
+  return "no overlap found with any of the " + std::to_string(tried.size()) + " scans tried";
 }
 
 // Of each scan why the hint of its pose was dropped; empty where it was not, or nothing tells. Hints of one group that

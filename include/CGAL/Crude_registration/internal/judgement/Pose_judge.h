@@ -168,8 +168,9 @@ public:
 private:
   static constexpr std::size_t evidence_probes = 1500; // of either scan
 
-  // Chance is known from so many distinct candidates, where there are as many: what the first round keeps.
-  static constexpr std::size_t fewest_candidates = 32;
+  // Chance is known from so many distinct candidates, where there are as many: what the first round keeps, and twice as
+  // many, more of which say the same.
+  static constexpr std::size_t fewest_candidates = 32, most_candidates = 64;
 
   // What the probes of either scan meet by chance.
   struct Pair_chance
@@ -240,6 +241,7 @@ private:
       changed.push_back(row);
     };
     for (const Pose& p : round.tried) {
+      if (m_tried_rows.size() == most_candidates) break;
       const std::size_t row = row_of(p);
       if (std::find(m_tried_rows.begin(), m_tried_rows.end(), row) != m_tried_rows.end()) continue;
       put(row, p);
