@@ -83,7 +83,7 @@ public:
   Simulated_set(const std::string& kind, unsigned seed, std::size_t views, double degrees, const Sensor_model& sensor)
   {
     const Random random(seed * 7919u + 17u);
-    Mesh mesh;
+    Mesh& mesh = m_mesh;
     if (kind == "room") add_room(mesh, seed);
     else if (kind == "part") add_part(mesh, seed);
     else CGAL::Crude_registration::make_statue(mesh, 96, CGAL::Crude_registration::parameters::random_seed(seed));
@@ -133,6 +133,7 @@ public:
     }
   }
 
+  const Mesh& mesh() const { return m_mesh; } // in the frame of the scene
   const std::vector<View>& views() const { return m_views; }
   const std::vector<Vector>& points(std::size_t i) const { return m_points[i]; }
   double spacing(std::size_t i) const { return m_spacings[i]; }
@@ -280,6 +281,7 @@ private:
     }
   }
 
+  Mesh m_mesh;
   std::vector<View> m_views;
   std::vector<std::vector<Vector>> m_points;
   std::vector<double> m_spacings;
