@@ -262,7 +262,7 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
   std::vector<std::string> applied;
   if (apply_folder) {
     applied = applied_names(*apply_folder, files);
-    for (const std::string& file : files) CR::check_motion_can_be_applied(file);
+    for (const std::string& file : files) check_apply(file);
     make_folder(*apply_folder);
     for (std::size_t i = 0; i < files.size(); ++i) check_apply(files[i], applied[i]);
   }
@@ -308,12 +308,14 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
   if (const auto file = value_of<std::string>(map, "mesh")) write_model_surface(*file, surface, result, scans);
   if (picture) {
     std::vector<Surface> surfaces;
+    std::vector<Placed_surface> placed;
+    surfaces.reserve(files.size());
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (result.component(i) != 0) continue;
       surfaces.push_back(surface_of(i));
-      move(surfaces.back(), result.pose(i));
+      placed.push_back({&surfaces.back(), result.pose(i)});
     }
-    write_picture(*picture, std::move(surfaces), true);
+    write_picture(*picture, placed, true);
   }
   progress.clear();
   const bool with_times = map.count("times") > 0;

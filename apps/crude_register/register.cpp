@@ -255,10 +255,7 @@ std::vector<Point> vertices_of(const Side& side, const Surface& shown)
 void write_surface(const std::string& file, const Side& side, const Surface& shown, const Transformation& motion)
 {
   if (side.contents.kind == Scan_file::RANGE_IMAGE) {
-    std::vector<Point> points;
-    points.reserve(shown.points.size());
-    for (const Point& p : shown.points) points.push_back(p.transform(motion));
-    write_triangles(file, points, shown.triangles, colours_at(shown.points, side.contents));
+    write_triangles(file, shown.points, shown.triangles, colours_at(shown.points, side.contents), motion);
   } else {
     Mesh mesh = mesh_of(side.contents, side.viewpoint);
     add_colours(side.contents, mesh);
@@ -479,20 +476,21 @@ int run_register(const std::vector<std::string>& arguments)
     });
   if (picture)
     outputs.add(*picture, [&] {
-      std::vector<Surface> surfaces(shown.begin(), shown.end());
-      move(surfaces[0], motion);
-      write_picture(*picture, std::move(surfaces), is_registered);
+      write_picture(*picture, {{&shown[0], motion}, {&shown[1], Transformation(CGAL::IDENTITY)}}, is_registered);
     });
   std::optional<Pair_page> page;
   if (report) {
     page.emplace(report_of(sides, answer, error, hint));
-    outputs.add("", [&] { page->prepare(); });
+    outputs.add("", [&] {
+      page->prepare();
+      if (!applied) page->write(*report, notes_of(sides)); // else there may be one note more
+    });
   }
   std::vector<std::string> written = outputs.write();
   progress.clear();
   if (!note.empty()) sides[0].contents.notes.push_back(note);
   if (page) {
-    page->write(*report, notes_of(sides));
+    if (applied) page->write(*report, notes_of(sides));
     written.push_back(*report);
   }
   if (map.count("json") > 0) print_json(sides, answer, error, written, hint, map.count("times") > 0);
