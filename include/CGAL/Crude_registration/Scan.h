@@ -31,6 +31,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/property_map.h>
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <memory>
@@ -177,6 +178,32 @@ public:
                 const std::string& name = "Scan: image")
   {
     within_limits(np, name, [&](internal::Run_control& control) { prepare_image(image, np, name, control); });
+  }
+
+  /*!
+  prepares triangles, as `triangulate_range_image()` gives them: points and, for each triangle, the indices of its three
+  points, counterclockwise seen from outside (from the sensor).
+
+  \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+  \param points the points
+  \param triangles the triangles
+  \param sensor that saw them, where no named parameter gives it; may be unknown
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class
+  \param name what the triangles are called in the text of exceptions
+
+  \throws std::invalid_argument if there is no triangle of positive area, a triangle has an index that there is no point
+         of, or a coordinate is not finite
+  */
+  template <class NamedParameters = parameters::Default_named_parameters>
+  Scan(const std::vector<Point_3>& points, const std::vector<std::array<std::size_t, 3>>& triangles,
+       const Sensor<Kernel>& sensor, const NamedParameters& np = parameters::default_values(),
+       const std::string& name = "Scan: triangles")
+  {
+    within_limits(np, name, [&](internal::Run_control& control) {
+      prepare(internal::faces_of_scan(points, triangles, name, control), internal::sensor_parameter(np, name, sensor),
+              nullptr, np, generator_of(np), name, control);
+    });
   }
 
   /*!
