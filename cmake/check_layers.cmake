@@ -4,7 +4,7 @@
 # the internal one of the same name are one: the public header is the door. `[^/]*` are the files of a folder itself.
 cmake_minimum_required(VERSION 3.22)
 set(rooms
-  "named_parameters.h|IO/IO_error.h|internal/base/.*"
+  "named_parameters.h|Preparation_interrupted.h|IO/IO_error.h|internal/base/.*"
   "Judgement_limits.h|Registration_status.h|Registration_result.h|Assembly_status.h|Assembly_result.h|Sensor.h|Range_image.h"
   "internal/mesh/.*"
   "internal/lookup/.*"
@@ -21,6 +21,7 @@ set(rooms
   "register_scans.h"
   "judge_motion.h|register_scans_with_scale.h|compare_points.h|fused_points.h"
   "assemble_scans.h"
+  "assemble_by_processes.h"
   "register_meshes.h"
   "all_headers.h")
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the Debian packages, checks them with lintian, and installs and runs them in a root that has nothing else:
-# try_packages.sh [FOLDER], a folder of its own to work in. Needs root, debootstrap and lintian, and a network.
+# try_packages.sh [FOLDER], a folder of its own to work in. Needs root, debootstrap and lintian, and a network. The root is
+# made of the packages of DEBOOTSTRAP_MIRROR, an address, if that is set, else of debootstrap's own.
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")/.." && pwd)
 folder=${1:-$source_dir/build-packages}
@@ -18,7 +19,7 @@ lintian --fail-on error,warning --suppress-tags bogus-mail-host,bogus-mail-host-
   "$folder"/build/packages/*.deb
 
 root=$folder/root
-[ -e "$root/etc/debian_version" ] || debootstrap --variant=minbase bookworm "$root"
+[ -e "$root/etc/debian_version" ] || debootstrap --variant=minbase bookworm "$root" ${DEBOOTSTRAP_MIRROR:+"$DEBOOTSTRAP_MIRROR"}
 cp "$folder"/build/packages/*.deb "$root/tmp/"
 chroot "$root" sh -euc '
   export DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin

@@ -25,6 +25,7 @@
 #include "workers.h"
 
 #include <CGAL/Crude_registration/Scan.h>
+#include <CGAL/Crude_registration/assemble_by_processes.h>
 #include <CGAL/Crude_registration/assemble_scans.h>
 
 #include <CGAL/for_each.h>
@@ -48,7 +49,6 @@
 
 namespace {
 
-namespace CRI = CR::internal;
 using Scan = CR::Scan<Kernel>;
 using Result = CR::Assembly_result<Kernel>;
 
@@ -100,16 +100,13 @@ std::vector<Scan> prepared_by(Workers& workers, std::size_t n)
 }
 
 // The pairs of a round by the workers.
-CRI::Round_registration registration_by(Workers& workers)
+CR::Pair_executor executor_of(Workers& workers)
 {
-  return [&workers](const std::vector<CRI::Input_pair>& pairs, CRI::Run_control& control) {
+  return [&workers](const std::vector<CR::Scan_places>& pairs, const std::function<bool()>& go_on) {
     std::vector<std::string> tasks;
-    for (const CRI::Input_pair& p : pairs)
+    for (const CR::Scan_places& p : pairs)
       tasks.push_back("register " + std::to_string(p.source) + ' ' + std::to_string(p.target));
-    std::vector<CRI::Pair_answer> answers;
-    for (const std::string& bytes : workers.answers(tasks, [&control] { return control.go_on(); }))
-      answers.push_back(CRI::answer_of_bytes(bytes));
-    return answers;
+    return workers.answers(tasks, go_on);
   };
 }
 
@@ -119,14 +116,12 @@ void serve(Workers& workers, const std::vector<std::string>& files, const Prepar
            const std::optional<std::string>& store)
 {
   std::vector<Scan> scans;
-  CRI::Pair_registration register_pair;
-  const auto take = [&](const std::string& bytes) {
-    scans.push_back(CR::scan_from_bytes<Kernel>(bytes));
-    if (scans.size() == files.size())
-      register_pair = CRI::pair_registration(scans, CR::Oriented_pair_candidates(), store.value_or(""));
-  };
-  workers.serve({[&](std::size_t i) { return CR::scan_to_bytes(prepare(files[i])); }, take,
-                 [&](std::size_t i, std::size_t j) { return CRI::to_bytes(register_pair(i, j, CRI::to_the_end())); }});
+  const auto np = CR::parameters::store(store.value_or(""));
+  workers.serve({[&](std::size_t i) { return CR::scan_to_bytes(prepare(files[i])); },
+                 [&](const std::string& bytes) { scans.push_back(CR::scan_from_bytes<Kernel>(bytes)); },
+                 [&](std::size_t i, std::size_t j) {
+                   return CR::registered_pair(scans, {i, j}, np);
+                 }});
 }
 
 Json to_json(const Result& result, const std::vector<std::string>& files, const std::vector<std::string>& notes,
@@ -262,7 +257,7 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
   std::vector<std::string> applied;
   if (apply_folder) {
     applied = applied_names(*apply_folder, files);
-    for (const std::string& file : files) CR::check_motion_can_be_applied(file);
+    for (const std::string& file : files) check_apply(file);
     make_folder(*apply_folder);
     for (std::size_t i = 0; i < files.size(); ++i) check_apply(files[i], applied[i]);
   }
@@ -278,10 +273,10 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
                       .known_poses(std::cref(known.poses))
                       .known_groups(std::cref(known.groups))
                       .known_poses_are_fixed(map.count("fix") > 0);
-  const CRI::Round_registration registration = workers ? registration_by(*workers) : CRI::Round_registration();
-  const auto run = [&](const auto& parameters) {
-    return CRI::assemble_scans_by<CGAL::Parallel_if_available_tag>(registration, scans,
-                                                                   parameters.store(store.value_or("")));
+  const auto run = [&](const auto& given_parameters) {
+    const auto parameters = given_parameters.store(store.value_or(""));
+    return workers ? CR::assemble_scans_by<CGAL::Parallel_if_available_tag>(executor_of(*workers), scans, parameters)
+                   : CR::assemble_scans<CGAL::Parallel_if_available_tag>(scans, parameters);
   };
   const Result result = known.reference ? run(np.reference_scan(*known.reference)) : run(np);
 
@@ -308,12 +303,14 @@ int assemble(const std::vector<std::string>& arguments, Workers* workers)
   if (const auto file = value_of<std::string>(map, "mesh")) write_model_surface(*file, surface, result, scans);
   if (picture) {
     std::vector<Surface> surfaces;
+    std::vector<Placed_surface> placed;
+    surfaces.reserve(files.size());
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (result.component(i) != 0) continue;
       surfaces.push_back(surface_of(i));
-      move(surfaces.back(), result.pose(i));
+      placed.push_back({&surfaces.back(), result.pose(i)});
     }
-    write_picture(*picture, std::move(surfaces), true);
+    write_picture(*picture, placed, true);
   }
   progress.clear();
   const bool with_times = map.count("times") > 0;

@@ -26,6 +26,7 @@
 #include <CGAL/Crude_registration/matching/Trihedron_candidates.h>
 #include <CGAL/Crude_registration/register_scans.h>
 #include <CGAL/Crude_registration/register_scans_with_scale.h>
+#include <CGAL/Crude_registration/sampling/estimate_sensor.h>
 
 #include <CGAL/Polygon_mesh_processing/transform.h>
 #include <CGAL/for_each.h>
@@ -47,6 +48,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -58,6 +60,7 @@ using Result = CR::Registration_result<Kernel>;
 struct Side : Scan_of_a_side
 {
   std::unique_ptr<const Scan> scan;
+  Surface shown; // of a range image what was registered, where it is asked for; else as yet empty
   double seconds = 0;
   std::string interruption;   // the time budget's end, before there was a scan
   std::exception_ptr failure; // of both sides', the first is reported
@@ -92,15 +95,35 @@ void take_scale(double factor, Side& source)
 {
   if (factor == 1) return;
   scale(source.contents, factor);
+  for (Point& p : source.shown.points) p = p.transform(Transformation(CGAL::SCALING, factor));
   if (source.viewpoint) source.viewpoint = source.viewpoint->transform(Transformation(CGAL::SCALING, factor));
   source.scan = std::make_unique<const Scan>(CR::scaled(*source.scan, factor));
   source.unit *= factor;
 }
 
-// Reads, prepares and registers the two scans.
+// Triangulates what was read of a range image, so that what is registered and what is shown of it are computed once.
+void triangulate(Side& side)
+{
+  CR::Range_image<Kernel>& image = side.contents.image;
+  if (!image.sensor().is_known())
+    image.set_sensor(side.viewpoint ? CR::Sensor<Kernel>::perspective(*side.viewpoint) : CR::estimate_sensor(image));
+  side.shown = surface_to_show(side.contents, nullptr);
+}
+
+template <class Parameters>
+std::unique_ptr<const Scan> scan_of(const Side& side, const Parameters& np)
+{
+  if (!side.shown.triangles.empty())
+    return std::make_unique<const Scan>(side.shown.points, side.shown.triangles, side.contents.image.sensor(), np,
+                                        side.file);
+  return side.viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*side.viewpoint), side.file)
+                        : std::make_unique<const Scan>(side.contents, np, side.file);
+}
+
+// Reads, prepares and registers the two scans. `are_shown`: their surfaces, too, are asked for.
 template <class Generator>
 Answer register_files(std::array<Side, 2>& sides, const Generator& generator, double time_budget, bool estimate_scale,
-                      Progress& progress)
+                      bool are_shown, Progress& progress)
 {
   const auto left = [&, begin = Clock::now()] { // of the time budget
     constexpr double shortest = 1e-9;
@@ -112,9 +135,9 @@ Answer register_files(std::array<Side, 2>& sides, const Generator& generator, do
     try {
       side.read();
       const auto start = Clock::now();
-      const auto np = CR::parameters::time_budget(left()).candidates(generator).visitor(visitor);
-      side.scan = side.viewpoint ? std::make_unique<const Scan>(side.contents, np.viewpoint(*side.viewpoint), side.file)
-                                 : std::make_unique<const Scan>(side.contents, np, side.file);
+      constexpr bool needs_image = std::is_same_v<Generator, CR::Trihedron_candidates>;
+      if (are_shown && !needs_image && side.contents.kind == Scan_file::RANGE_IMAGE) triangulate(side);
+      side.scan = scan_of(side, CR::parameters::time_budget(left()).candidates(generator).visitor(visitor));
       side.seconds = seconds_since(start);
     } catch (const CR::Preparation_interrupted& interrupted) {
       side.interruption = interrupted.what();
@@ -243,22 +266,20 @@ private:
 };
 
 // The vertices of the surface of a scan.
-std::vector<Point> vertices_of(const Side& side, const Surface& shown)
+std::vector<Point> vertices_of(const Side& side)
 {
-  if (side.contents.kind != Scan_file::POINTS) return shown.points;
+  if (side.contents.kind != Scan_file::POINTS) return side.shown.points;
   const Mesh mesh = mesh_of(side.contents, side.viewpoint);
   return std::vector<Point>(mesh.points().begin(), mesh.points().end());
 }
 
 // A surface as it is written: as the file has it if it is a mesh, else triangulated, moved; with the colours of the
 // file.
-void write_surface(const std::string& file, const Side& side, const Surface& shown, const Transformation& motion)
+void write_surface(const std::string& file, const Side& side, const Transformation& motion)
 {
+  const Surface& shown = side.shown;
   if (side.contents.kind == Scan_file::RANGE_IMAGE) {
-    std::vector<Point> points;
-    points.reserve(shown.points.size());
-    for (const Point& p : shown.points) points.push_back(p.transform(motion));
-    write_triangles(file, points, shown.triangles, colours_at(shown.points, side.contents));
+    write_triangles(file, shown.points, shown.triangles, colours_at(shown.points, side.contents), motion);
   } else {
     Mesh mesh = mesh_of(side.contents, side.viewpoint);
     add_colours(side.contents, mesh);
@@ -268,14 +289,14 @@ void write_surface(const std::string& file, const Side& side, const Surface& sho
 }
 
 // Both surfaces in the frame of the target, and the motion.
-void add_output(const std::string& folder, const std::array<Side, 2>& sides, const std::array<Surface, 2>& shown,
-                const Transformation& motion, Outputs& outputs)
+void add_output(const std::string& folder, const std::array<Side, 2>& sides, const Transformation& motion,
+                Outputs& outputs)
 {
   make_folder(folder);
   const std::string names[2] = {in_folder(folder, "source_moved.ply"), in_folder(folder, "target.ply")};
   for (std::size_t i = 0; i < 2; ++i)
-    outputs.add(names[i], [&, i, name = names[i]] {
-      write_surface(name, sides[i], shown[i], i == 0 ? motion : Transformation(CGAL::IDENTITY));
+    outputs.add(names[i], [&sides, &motion, i, name = names[i]] {
+      write_surface(name, sides[i], i == 0 ? motion : Transformation(CGAL::IDENTITY));
     });
   outputs.add(in_folder(folder, "motion.txt"), [&motion, name = in_folder(folder, "motion.txt")] {
     CR::write_file(name, [&](std::ostream& out) {
@@ -439,15 +460,16 @@ int run_register(const std::vector<std::string>& arguments)
   const std::array<Scan_of_a_side, 2> given_sides = sides_of(map);
   for (std::size_t i = 0; i < 2; ++i) static_cast<Scan_of_a_side&>(sides[i]) = given_sides[i];
   const auto applied = apply_option(map, sides[0].file);
+  const bool are_shown = picture || output || poses_file;
   watch_for_interruption();
   Progress progress;
   const Answer answer = [&] {
     if (method == "pairs")
       return register_files(sides, generator_with<CR::Oriented_pair_candidates>(f1, f2), time_budget, estimate_scale,
-                            progress);
+                            are_shown, progress);
     if (method == "trihedra")
       return register_files(sides, generator_with<CR::Trihedron_candidates>(f1, f2), time_budget, estimate_scale,
-                            progress);
+                            are_shown, progress);
     throw Usage_error("--method takes pairs or trihedra, not '" + method + "'");
   }();
   const Result& result = answer.result;
@@ -456,21 +478,20 @@ int run_register(const std::vector<std::string>& arguments)
   const bool is_registered = result.status() != CR::NOT_REGISTERED;
   const Transformation& motion = result.transformation();
   const std::string hint = result.status() == CR::REGISTERED || estimate_scale ? "" : hint_of(sides);
-  std::array<Surface, 2> shown;
   if (picture || (is_registered && (output || poses_file)))
-    CGAL::for_each<CGAL::Parallel_if_available_tag>(std::array<std::size_t, 2>{0, 1}, [&](std::size_t i) {
-      shown[i] = surface_to_show(sides[i].contents, sides[i].scan.get());
+    CGAL::for_each<CGAL::Parallel_if_available_tag>(sides, [&](Side& side) {
+      if (side.shown.points.empty()) side.shown = surface_to_show(side.contents, side.scan.get());
       return true;
     });
   std::optional<Error> error;
   if (is_registered && poses_file) {
     const auto s = poses.find(base_name(sides[0].file)), t = poses.find(base_name(sides[1].file));
     if (s == poses.end() || t == poses.end()) throw CR::IO_error(*poses_file, "a pose of the two scans is missing");
-    error = error_of(motion, t->second.inverse() * s->second, vertices_of(sides[0], shown[0]));
+    error = error_of(motion, t->second.inverse() * s->second, vertices_of(sides[0]));
   }
 
   Outputs outputs;
-  if (output && is_registered) add_output(*output, sides, shown, motion, outputs);
+  if (output && is_registered) add_output(*output, sides, motion, outputs);
   std::string note;
   if (applied && is_registered)
     outputs.add(*applied, [&] {
@@ -479,20 +500,22 @@ int run_register(const std::vector<std::string>& arguments)
     });
   if (picture)
     outputs.add(*picture, [&] {
-      std::vector<Surface> surfaces(shown.begin(), shown.end());
-      move(surfaces[0], motion);
-      write_picture(*picture, std::move(surfaces), is_registered);
+      write_picture(*picture, {{&sides[0].shown, motion}, {&sides[1].shown, Transformation(CGAL::IDENTITY)}},
+                    is_registered);
     });
   std::optional<Pair_page> page;
   if (report) {
     page.emplace(report_of(sides, answer, error, hint));
-    outputs.add("", [&] { page->prepare(); });
+    outputs.add("", [&] {
+      page->prepare();
+      if (!applied) page->write(*report, notes_of(sides)); // else there may be one note more
+    });
   }
   std::vector<std::string> written = outputs.write();
   progress.clear();
   if (!note.empty()) sides[0].contents.notes.push_back(note);
   if (page) {
-    page->write(*report, notes_of(sides));
+    if (applied) page->write(*report, notes_of(sides));
     written.push_back(*report);
   }
   if (map.count("json") > 0) print_json(sides, answer, error, written, hint, map.count("times") > 0);

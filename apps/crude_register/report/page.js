@@ -10,6 +10,9 @@ function radio(name, value, text, is_checked, choose) {
 
 function update_all() {
   if (the_view) the_view.update();
+  update_rest();
+}
+function update_rest() {
   the_section.ask();
   show_legend();
   show_histogram();
@@ -164,9 +167,19 @@ if (!the_view) {
 state.has_view = Boolean(the_view);
 state.layout = has_poses && report.have_common_frame ? "together" : "apart";
 document.querySelector('input[name="layout"][value="' + state.layout + '"]').checked = true;
-show_numbers();
-show_assembly(show_only);
-mark_pose();
 if (the_view) the_view.reset();
-update_all();
-state.ready = true;
+
+// All else waits for the first frame of the view; a page that nobody looks at has none.
+function fill() {
+  if (state.ready) return;
+  show_numbers();
+  show_assembly(show_only);
+  mark_pose();
+  update_rest();
+  state.ready = true;
+}
+if (the_view) {
+  const longest_wait_ms = 1000;
+  requestAnimationFrame(() => setTimeout(fill));
+  setTimeout(fill, longest_wait_ms);
+} else fill();

@@ -135,7 +135,7 @@ function make_view() {
   let to_scene = { centre: [0, 0, 0], scale: 1 }; // scene from the common frame
   let is_asked_for = false, marked = null;
   // Where all points take too long to follow the hand, a part of them is drawn until it rests; and at first.
-  const first_points = 50000, quick_ms = 80, rest_ms = 250;
+  const first_points = 20000, quick_ms = 80, rest_ms = 250;
   let points_a_ms = first_points / quick_ms, is_moving = true, resting = null;
 
   canvas.addEventListener("webglcontextlost", (e) => {

@@ -14,6 +14,7 @@
 
 // A scan prepared for registration.
 
+#include <CGAL/Crude_registration/Preparation_interrupted.h>
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
@@ -31,6 +32,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/property_map.h>
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <memory>
@@ -44,19 +46,6 @@ namespace Crude_registration {
 
 template <class Kernel>
 struct Scan_file; // IO/read_scan.h
-
-/*!
-\ingroup PkgCrudeRegistrationRef
-
-\brief Thrown where a time budget or a visitor ends the preparation of a scan, of which no part is of use.
-*/
-struct Preparation_interrupted : std::runtime_error
-{
-  /// `name`: of the scan
-  explicit Preparation_interrupted(const std::string& name)
-      : std::runtime_error("interrupted: the preparation of " + name)
-  {}
-};
 
 /*!
 \ingroup PkgCrudeRegistrationRef
@@ -156,7 +145,10 @@ public:
   explicit Scan(const FaceGraph& mesh, const NamedParameters& np = parameters::default_values(),
                 const std::string& name = "Scan: mesh")
   {
-    within_limits(np, name, [&](internal::Run_control& control) { prepare_mesh(mesh, np, name, control); });
+    within_limits(np, name, [&](internal::Run_control& control) {
+      prepare(internal::faces_of_scan(mesh, np, name, control), internal::sensor_parameter(np, name), nullptr, np,
+              generator_of(np), name, control);
+    });
   }
 
   /*!
@@ -177,6 +169,27 @@ public:
                 const std::string& name = "Scan: image")
   {
     within_limits(np, name, [&](internal::Run_control& control) { prepare_image(image, np, name, control); });
+  }
+
+  /*!
+  prepares triangles, as `triangulate_range_image()` gives them.
+  \param points the points
+  \param triangles the indices of their points, counterclockwise seen from outside (from the sensor)
+  \param sensor that saw them, where no named parameter gives it; may be unknown
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of the class
+  \param name what the triangles are called in the text of exceptions
+  \throws std::invalid_argument if there is no triangle of positive area, an index without a point, or a coordinate that
+         is not finite
+  */
+  template <class NamedParameters = parameters::Default_named_parameters>
+  Scan(const std::vector<Point_3>& points, const std::vector<std::array<std::size_t, 3>>& triangles,
+       const Sensor<Kernel>& sensor, const NamedParameters& np = parameters::default_values(),
+       const std::string& name = "Scan: triangles")
+  {
+    within_limits(np, name, [&](internal::Run_control& control) {
+      prepare(internal::faces_of_scan(points, triangles, name, control), internal::sensor_parameter(np, name, sensor),
+              nullptr, np, generator_of(np), name, control);
+    });
   }
 
   /*!
@@ -292,7 +305,6 @@ public:
   explicit Scan(internal::Reduced_scan reduced, std::shared_ptr<const Scan> other_side = nullptr)
       : m_reduced(std::move(reduced)), m_other_side(std::move(other_side))
   {}
-
   // The surface seen from its other side, where nothing tells from which it was seen; or null.
   const Scan* other_side() const { return m_other_side.get(); }
 
@@ -316,14 +328,6 @@ private:
     } catch (const internal::Run_control::Stopped&) {
       throw Preparation_interrupted(name);
     }
-  }
-
-  template <class FaceGraph, class NamedParameters>
-  void prepare_mesh(const FaceGraph& mesh, const NamedParameters& np, const std::string& name,
-                    internal::Run_control& control)
-  {
-    prepare(internal::faces_of_scan(mesh, np, name, control), internal::sensor_parameter(np, name), nullptr, np,
-            generator_of(np), name, control);
   }
 
   template <class NamedParameters>

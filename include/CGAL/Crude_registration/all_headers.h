@@ -25,6 +25,7 @@
 #include <CGAL/Crude_registration/IO/triangulate_scan.h>
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/IO/write_range_image.h>
+#include <CGAL/Crude_registration/Preparation_interrupted.h>
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Judgement_limits.h>
@@ -32,6 +33,7 @@
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/Sensor.h>
 #include <CGAL/Crude_registration/judge_motion.h>
+#include <CGAL/Crude_registration/assemble_by_processes.h>
 #include <CGAL/Crude_registration/assemble_scans.h>
 #include <CGAL/Crude_registration/compare_points.h>
 #include <CGAL/Crude_registration/fused_points.h>

@@ -2,7 +2,7 @@
 // with 1 where something is not as it should be.
 
 import { spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Browser, Page } from "./browser.mjs";
 
@@ -45,6 +45,8 @@ function make_reports() {
   run(3, "register", source, other, "--report", "apart.html");
   run(3, "register", source, target, "--time-budget", "1e-9", "--report", "early.html");
   run(0, "assemble", ...[0, 1, 2, 3].map((i) => join("body", `scan_${i}.ply`)), other, "--report", "assembly.html");
+  run(0, "simulate", "--output", "many", "--scans", "30", "--samples", "520");
+  run(0, "assemble", "many", "--report", "many.html");
 }
 
 const state = (page, path = "") => page.value("JSON.parse(JSON.stringify(report_state))" + path);
@@ -424,6 +426,14 @@ try {
     }
     await closed(page);
   }
+
+  // Of thirty scans of some 40,000 samples. The time is told, not checked: it depends on the machine.
+  page = await opened(browser, "many.html", wide);
+  const { size } = statSync(join(folder, "many.html"));
+  check(size <= 12e6, page.name + ": a file of " + size + " bytes");
+  const { points, first_frame } = await page.value("({ points: scans.reduce((sum, scan) => sum + scan.count, 0), first_frame: report_state.first_frame_ms })");
+  console.log(`${page.name}: ${points} points in ${size} bytes, the first frame after ${Math.round(first_frame)} ms`);
+  await closed(page);
 
   page = await Page.open(browser, join(folder, without_three("pair.html")), wide);
   page.name = "pair.html without three.js";

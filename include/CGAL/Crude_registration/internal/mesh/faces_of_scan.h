@@ -18,8 +18,15 @@
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
 #include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_points.h>
+
+#include <CGAL/property_map.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -47,6 +54,27 @@ Flat_mesh faces_of_scan(const FaceGraph& mesh, const NamedParameters& np, const 
     throw std::invalid_argument(name + " has no faces: a PLY file with a range grid, or with points alone, has none " +
                                 "where CGAL::IO reads it as a mesh; read the file with read_scan(), and make the " +
                                 "Scan of what it finds");
+  return flat;
+}
+
+// The same of a polygon soup.
+template <class Point>
+Flat_mesh faces_of_scan(const std::vector<Point>& points, const std::vector<std::array<std::size_t, 3>>& triangles,
+                        const std::string& name, Run_control& control)
+{
+  if (triangles.size() > static_cast<std::size_t>((std::numeric_limits<std::int32_t>::max)()))
+    throw std::invalid_argument(name + ": it has more than 2^31 - 1 triangles");
+  Flat_mesh flat;
+  flat.points = to_flat_points(points, CGAL::Identity_property_map<Point>(), name, "it", control);
+  flat.faces.reserve(triangles.size());
+  for (const auto& t : triangles) {
+    control.check(flat.faces.size());
+    if (!((std::max)({t[0], t[1], t[2]}) < points.size()))
+      throw std::invalid_argument(name + ": triangle " + std::to_string(flat.faces.size()) + " of it has the index " +
+                                  std::to_string((std::max)({t[0], t[1], t[2]})) + ", but there are " +
+                                  std::to_string(points.size()) + " points");
+    flat.faces.push_back({std::int32_t(t[0]), std::int32_t(t[1]), std::int32_t(t[2])});
+  }
   return flat;
 }
 
