@@ -24,10 +24,6 @@
 #include <ostream>
 #include <utility>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 namespace {
 
 // From where surfaces are looked at.
@@ -93,15 +89,13 @@ struct Layer
 // The samples of a band.
 struct Samples
 {
-  static constexpr int lot = 4; // samples that are looked at together
-
   int width, top, bottom;
   std::vector<float> depths;
   std::vector<std::uint32_t> colours;
 
   Samples(int w, int t, int b) : width(w), top(t), bottom(b)
   {
-    const std::size_t number = std::size_t(width) * std::size_t(bottom - top) + lot;
+    const std::size_t number = std::size_t(width) * std::size_t(bottom - top);
     constexpr std::uint32_t white = 0xffffff;
     depths.assign(number, -(std::numeric_limits<float>::max)());
     colours.assign(number, white);
@@ -118,30 +112,18 @@ struct Samples
     }
   }
 
-  // A row of a plane from begin to end, of which the depth at x = 0 is given.
+  // A row of a plane from begin to end, of which the depth at x = 0 is given. Without a branch: which samples are
+  // hidden cannot be foretold.
   void put_row(int begin, int end, int y, float depth_at_0, float along_x, std::uint32_t colour)
   {
-#ifdef __SSE2__
-    // In lots, without a branch in them: which samples are hidden cannot be foretold, and a wrong guess costs more than
-    // the lot. Beyond the end of the row stands what is written there.
     float* const d = depths.data() + row(y);
     std::uint32_t* const c = colours.data() + row(y);
-    const __m128 half = _mm_setr_ps(0.5F, 1.5F, 2.5F, 3.5F), slope = _mm_set1_ps(along_x);
-    const __m128i places = _mm_setr_epi32(0, 1, 2, 3), colours_put = _mm_set1_epi32(int(colour));
-    for (int x = begin; x < end; x += lot) {
-      const __m128 depth =
-          _mm_add_ps(_mm_set1_ps(depth_at_0), _mm_mul_ps(_mm_add_ps(_mm_set1_ps(float(x)), half), slope));
-      const __m128 old = _mm_loadu_ps(d + x);
-      const __m128i is_inside = _mm_cmpgt_epi32(_mm_set1_epi32(end - x), places);
-      const __m128 seen = _mm_and_ps(_mm_cmpgt_ps(depth, old), _mm_castsi128_ps(is_inside));
-      _mm_storeu_ps(d + x, _mm_or_ps(_mm_and_ps(seen, depth), _mm_andnot_ps(seen, old)));
-      auto* const at = reinterpret_cast<__m128i*>(c + x);
-      const __m128i mask = _mm_castps_si128(seen);
-      _mm_storeu_si128(at, _mm_or_si128(_mm_and_si128(mask, colours_put), _mm_andnot_si128(mask, _mm_loadu_si128(at))));
+    for (int x = begin; x < end; ++x) {
+      const float depth = depth_at_0 + (float(x) + 0.5F) * along_x;
+      const bool is_seen = depth > d[x];
+      c[x] = is_seen ? colour : c[x];
+      d[x] = is_seen ? depth : d[x];
     }
-#else
-    for (int x = begin; x < end; ++x) put(x, y, depth_at_0 + (float(x) + 0.5F) * along_x, colour);
-#endif
   }
 };
 
