@@ -158,8 +158,8 @@ BOOST_AUTO_TEST_CASE(las_has_them_in_some_formats)
 
 BOOST_AUTO_TEST_CASE(text_has_them_behind_the_points)
 {
-  BOOST_TEST(are_equal(read("a.xyz", "1 2 3 255 0 10\n4 5 6 0 128 20\n7 8 9.5 7 8 255\n").colors, expected));
-  BOOST_TEST(are_equal(read("a.csv", "1;2;3;255;0;10\n4;5;6;0;128;20\n7;8;9,5;7;8;255\n").colors, expected));
+  BOOST_TEST(are_equal(read("a.xyz", "1 2 3 255 0 10\n4 5 6 0 128 20\n0 8 9.5 7 8 255\n").colors, expected));
+  BOOST_TEST(are_equal(read("a.csv", "1;2;3;255;0;10\n4;5;6;0;128;20\n0;8;9,5;7;8;255\n").colors, expected));
   // a point that is none takes its colour along
   const auto file = read("a.xyz", "1 2 3 255 0 10\nnan nan nan 1 1 1\n4 5 6 0 128 20\n7 8 9.5 7 8 255\n");
   BOOST_TEST(are_equal(file.colors, expected));
