@@ -116,6 +116,8 @@ inline Moved_file moved_file(CR::Scan_file<Kernel> scan, const std::string& name
   const Transformation& motion = moved.moved_from_file;
   CR::transform(file.image, motion);
   for (auto& p : file.points) p = p.transform(motion);
+  for (auto& n : file.normals) n = n.transform(motion);
+  file.sensor = file.sensor.transformed(motion);
   CGAL::Polygon_mesh_processing::transform(motion, file.mesh);
   return moved;
 }

@@ -243,7 +243,6 @@ CR::Scan<Kernel> prepared(const File& file, const std::string& name, Transformat
 {
   benchmark_tools::Moved_file moved = benchmark_tools::moved_file(file, name);
   moved_from_file = moved.moved_from_file;
-  for (auto& n : moved.file.normals) n = n.transform(moved_from_file);
   return CR::Scan<Kernel>(moved.file, CR::parameters::default_values(), name);
 }
 

@@ -5,7 +5,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Time and memory of preparing a scan, and the time of registering two, as they grow with the number of samples.
+// Time and memory of preparing a scan, and the time of registering two, as they grow with the number of samples: of
+// range images, meshes, points alone, points that are there six times, and rings of a scanner that spins.
 
 #include "child_process.h"
 #include "command_line.h"
@@ -13,6 +14,7 @@
 #include "plot_script.h"
 #include "reference_time.h"
 #include "result_tools.h"
+#include "ring_scans.h"
 
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/register_scans.h>
@@ -20,7 +22,9 @@
 
 #include <boost/program_options.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -30,6 +34,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -49,6 +54,7 @@ namespace {
 struct Options
 {
   std::vector<std::size_t> sizes = {10000, 30000, 100000, 300000, 1000000, 3000000, 5000000};
+  std::vector<std::string> kinds = {"range_image", "mesh", "points", "copies", "rings"};
   std::size_t runs = 3;
   std::string reference, csv, plot;
 };
@@ -116,10 +122,31 @@ Kernel::Point_3 to_point(const Coordinates& p)
   return {p[0], p[1], p[2]};
 }
 
-// A scan as a range image and as a mesh, in files.
+using Points = std::vector<Kernel::Point_3>;
+
+void write_points(const Shared_file& file, const Points& points)
+{
+  file.begin();
+  file.write(points.size());
+  for (const auto& p : points) file.write(Coordinates{p.x(), p.y(), p.z()});
+}
+
+// All of them `copies` times, one time after the other.
+Points read_points(const Shared_file& file, std::size_t copies = 1)
+{
+  file.begin();
+  const auto n = file.read<std::size_t>();
+  Points points;
+  points.reserve(copies * n);
+  for (std::size_t i = 0; i < n; ++i) points.push_back(to_point(file.read<Coordinates>()));
+  for (std::size_t i = n; i < copies * n; ++i) points.push_back(points[i - n]);
+  return points;
+}
+
+// A scan as a range image and as a mesh, as points alone, and points of others, in files.
 struct Stored_scan
 {
-  Shared_file image_file, mesh_file;
+  Shared_file image_file, mesh_file, points_file, rings_file, few_points_file;
 
   void write(const Image& image) const
   {
@@ -129,6 +156,8 @@ struct Stored_scan
     image_file.write(image.points().size());
     for (const auto& p : image.points()) image_file.write(Coordinates{p.x(), p.y(), p.z()});
     for (const Image::Index i : image.grid()) image_file.write(i);
+
+    write_points(points_file, image.points());
 
     Mesh mesh;
     CR::triangulate_range_image(image, mesh);
@@ -174,12 +203,15 @@ struct Stored_scan
   }
 };
 
-// Writes two views of the scene and returns the motion of the first to the second.
 struct Motion
 {
   double matrix[3][4];
 };
 
+// As triangles have their corners that share none, each point several times.
+constexpr std::size_t number_of_copies = 6;
+
+// Writes two views of the scene and returns the motion of the first to the second.
 Motion generate(std::size_t size, const Stored_scan& source, const Stored_scan& target)
 {
   constexpr double turn = 0.6; // radians
@@ -188,11 +220,25 @@ Motion generate(std::size_t size, const Stored_scan& source, const Stored_scan& 
   const auto a = scene.scan(samples, 0, 1), b = scene.scan(samples, turn, 2);
   source.write(a.image);
   target.write(b.image);
+  write_points(source.few_points_file, scene.scan(size / number_of_copies, 0, 1).image.points());
+  write_points(target.few_points_file, scene.scan(size / number_of_copies, turn, 2).image.points());
   const auto truth = b.scene_from_scan.inverse() * a.scene_from_scan;
   Motion motion;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 4; ++j) motion.matrix[i][j] = truth.m(i, j);
   return motion;
+}
+
+// Writes two scans of a room by a scanner that spins, from two places in it, in the room's own frame: 64 rings of 2,000
+// samples where there are 128,000, and the like.
+Motion generate_rings(std::size_t size, const Stored_scan& source, const Stored_scan& target)
+{
+  const benchmark_tools::Ring_scene scene;
+  const double along_to_across = 2000. / 64;
+  const auto rings = std::size_t(std::round(std::sqrt(double(size) / along_to_across)));
+  write_points(source.rings_file, scene.scan(3.5, 3, rings, size / rings, 1));
+  write_points(target.rings_file, scene.scan(5, 4, rings, size / rings, 2));
+  return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 }
 
 template <class Input>
@@ -205,7 +251,9 @@ Preparation prepare(const Input& input, std::size_t runs)
     const double start = cpu_seconds();
     const CR::Scan<Kernel> scan(input);
     seconds.push_back(cpu_seconds() - start);
-    result.vertices = scan.number_of_samples();
+    // Of points alone fewer are left once their density is evened.
+    if constexpr (std::is_same_v<Input, Points>) result.vertices = input.size();
+    else result.vertices = scan.number_of_samples();
   }
   result.seconds = benchmark_tools::median(seconds);
   return result;
@@ -297,8 +345,12 @@ int run(const Options& options)
   double before = reference();
   for (const std::size_t size : options.sizes) {
     const Stored_scan source, target;
-    const Motion truth = in_child_process([&] { return generate(size, source, target); }).value;
-    const auto measure = [&](const char* kind, const auto& read) {
+    const auto is_wanted = [&](const std::string& kind) {
+      return std::find(options.kinds.begin(), options.kinds.end(), kind) != options.kinds.end();
+    };
+    const std::size_t done = rows.size();
+    const auto measure = [&](const char* kind, const Motion& truth, const auto& read) {
+      if (!is_wanted(kind)) return;
       Row row;
       row.kind = kind;
       const auto prepared = in_child_process([&] { return prepare(read(source), options.runs); });
@@ -309,11 +361,19 @@ int run(const Options& options)
                          }).value;
       rows.push_back(row);
     };
-    measure("range_image", [](const Stored_scan& scan) { return scan.image(); });
-    measure("mesh", [](const Stored_scan& scan) { return scan.mesh(); });
+    const Motion truth = in_child_process([&] { return generate(size, source, target); }).value;
+    measure("range_image", truth, [](const Stored_scan& scan) { return scan.image(); });
+    measure("mesh", truth, [](const Stored_scan& scan) { return scan.mesh(); });
+    measure("points", truth, [](const Stored_scan& scan) { return read_points(scan.points_file); });
+    measure("copies", truth,
+            [](const Stored_scan& scan) { return read_points(scan.few_points_file, number_of_copies); });
+    if (is_wanted("rings")) {
+      const Motion motion = in_child_process([&] { return generate_rings(size, source, target); }).value;
+      measure("rings", motion, [](const Stored_scan& scan) { return read_points(scan.rings_file); });
+    }
     // The machine may change its speed: R is measured before and after.
     const double after = reference();
-    for (std::size_t i = rows.size() - 2; i < rows.size(); ++i) {
+    for (std::size_t i = done; i < rows.size(); ++i) {
       rows[i].reference = 0.5 * (before + after);
       print(rows[i]);
     }
@@ -341,13 +401,26 @@ std::vector<std::size_t> read_sizes(const std::string& text)
   return sizes;
 }
 
+std::vector<std::string> read_kinds(const std::string& text)
+{
+  const std::vector<std::string> known = Options().kinds;
+  std::vector<std::string> kinds;
+  std::istringstream in(text);
+  for (std::string field; std::getline(in, field, ',');) {
+    if (std::find(known.begin(), known.end(), field) == known.end())
+      throw std::runtime_error("--kinds has to be some of range_image,mesh,points,copies,rings, not " + text);
+    kinds.push_back(field);
+  }
+  return kinds;
+}
+
 } // namespace
 
 int main(int argc, char* argv[])
 {
   try {
     Options options;
-    std::string sizes;
+    std::string sizes, kinds;
     po::options_description description("Usage: scaling [OPTION...]\n\n"
                                         "Prepares and registers generated scans of growing size, each in a process\n"
                                         "of its own: CPU time of one thread, and the most memory the process had.\n\n"
@@ -357,6 +430,8 @@ int main(int argc, char* argv[])
                               "scan whose simplification is the unit of time, R (see reference_time)");
     description.add_options()("sizes", po::value(&sizes),
                               "numbers of vertices, with commas between; default: from 10000 to 5000000");
+    description.add_options()("kinds", po::value(&kinds),
+                              "of input, with commas between; default: range_image,mesh,points,copies,rings");
     description.add_options()("runs", po::value(&options.runs)->default_value(options.runs),
                               "preparations of each scan, of which the median counts");
     description.add_options()("output", po::value(&options.csv), "file to write the table to, as CSV");
@@ -364,6 +439,7 @@ int main(int argc, char* argv[])
     po::variables_map values;
     if (!benchmark_tools::read_options(argc, argv, description, values)) return EXIT_SUCCESS;
     if (values.count("sizes") != 0) options.sizes = read_sizes(sizes);
+    if (values.count("kinds") != 0) options.kinds = read_kinds(kinds);
     if (options.runs == 0) throw std::invalid_argument("--runs has to be at least 1");
     if (!options.plot.empty() && options.csv.empty()) throw std::invalid_argument("--plot needs --output");
     return run(options);

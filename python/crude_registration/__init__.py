@@ -21,6 +21,7 @@ from ._core import (
     read_scan,
     refine,
     register,
+    register_with_scale,
     simplify,
     simulate,
 )
@@ -37,12 +38,13 @@ from ._types import (
     PreparationInterrupted,
     RefinedMotion,
     RegistrationStatus,
+    ScaledRegistration,
     ScanKind,
     ScoredMotion,
     Stage,
 )
 
-for _function in (judge, make_statue, read_scan, refine, register, simplify, simulate):
+for _function in (judge, make_statue, read_scan, refine, register, register_with_scale, simplify, simulate):
     _function.__module__ = __name__
 del _function
 
@@ -60,6 +62,7 @@ __all__ = [
     "RefinedMotion",
     "RegistrationResult",
     "RegistrationStatus",
+    "ScaledRegistration",
     "Scan",
     "ScanFile",
     "ScanKind",
@@ -71,6 +74,7 @@ __all__ = [
     "read_scan",
     "refine",
     "register",
+    "register_with_scale",
     "simplify",
     "simulate",
 ]

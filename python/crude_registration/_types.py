@@ -117,6 +117,21 @@ class Stage:
     seconds: float
 
 
+class ScaledRegistration(typing.NamedTuple):
+    """What register_with_scale() returns.
+
+    scale: the factor by which the coordinates of the source are multiplied, an estimate; 1.0 if NOT_REGISTERED.
+    scale_deviation: its standard deviation by the scatter of the samples, as a share of it.
+    registration: the RegistrationResult of the source multiplied by it, whose motions are rigid.
+    similarity: (4, 4): maps the source, in its own unit, into the frame of the target.
+    """
+
+    scale: float
+    scale_deviation: float
+    registration: "RegistrationResult"
+    similarity: _Floats
+
+
 class RefinedMotion(typing.NamedTuple):
     """What refine() returns.
 
@@ -272,6 +287,7 @@ for _type in (
     Mesh,
     ScoredMotion,
     Stage,
+    ScaledRegistration,
     RefinedMotion,
     MotionJudgement,
     EdgeStatus,

@@ -5,13 +5,14 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// register and its result.
+// register, register_with_scale, and their result.
 
 #include "arrays.h"
 #include "json.h"
 #include "two_scans.h"
 
 #include <CGAL/Crude_registration/register_scans.h>
+#include <CGAL/Crude_registration/register_scans_with_scale.h>
 
 #include <CGAL/tags.h>
 
@@ -70,6 +71,29 @@ Ctrl-C ends a run of the main thread within a tenth of a second. Other threads o
 True
 )";
 
+const char* const register_with_scale_doc =
+    R"(register_with_scale(source, target, *, viewpoint=None, source_viewpoint=None, target_viewpoint=None, source_viewing_direction=None, target_viewing_direction=None, method='pairs', minimum_extent=0.0, maximum_extent=0.3, tolerance=None, use_normals=True, approximation_error=None, number_of_vertices=None, cell_size=0.0, time_budget=None, parallel=True, progress=None)
+--
+
+Registers two scans whose units of length may differ, by a factor that nobody knows: finds the factor and the motion
+that together map the source into the frame of the target. Returns a ScaledRegistration.
+
+The arguments are those of register(). The scans show the same object, or about as much of it: factors are tried that
+make their sizes agree to within a third, those first that are ratios of units of length. The confidence holds for
+factor and motion together; where the overlap does not tell the factor, as that of planes, the answer is AMBIGUOUS.
+Where the units are known, multiply the coordinates and call register(), which is faster and surer.
+
+>>> import crude_registration as cr
+>>> statue = cr.make_statue(resolution=48)
+>>> source, _ = cr.simulate(statue, (-1, 0, -0.25), samples=150)
+>>> target, _ = cr.simulate(statue, (-1, -0.7, -0.25), samples=150)
+>>> answer = cr.register_with_scale(source.points / 25.4, target.points)
+>>> answer.registration.status
+<RegistrationStatus.REGISTERED: 'registered'>
+>>> bool(abs(answer.scale / 25.4 - 1) < 0.01)
+True
+)";
+
 Result interrupted_result(const std::string& reason)
 {
   Result::Parts parts;
@@ -77,49 +101,109 @@ Result interrupted_result(const std::string& reason)
   return Result(std::move(parts));
 }
 
-Result run(const Two_scans& both, const Method& method, const Time_budget& budget, Interruption& interruption,
-           bool parallel)
+py::object type_named(const char* name)
+{
+  return py::module_::import("crude_registration._types").attr(name);
+}
+
+struct With_known_scale
+{
+  using Answer = Result;
+  static constexpr const char* name = "register";
+
+  static Answer of(const Result& result) { return result; }
+
+  template <class ConcurrencyTag, class NamedParameters>
+  static Answer find(const Scan& source, const Scan& target, const NamedParameters& np)
+  {
+    return CR::register_scans<ConcurrencyTag>(source, target, np);
+  }
+
+  static Result to_python(const Answer& answer) { return answer; }
+};
+
+struct With_any_scale
+{
+  using Answer = CR::Scaled_registration<Kernel>;
+  static constexpr const char* name = "register_with_scale";
+
+  static Answer of(const Result& result)
+  {
+    Answer answer;
+    answer.registration = result;
+    return answer;
+  }
+
+  template <class ConcurrencyTag, class NamedParameters>
+  static Answer find(const Scan& source, const Scan& target, const NamedParameters& np)
+  {
+    return CR::register_scans_with_scale<ConcurrencyTag>(source, target, np);
+  }
+
+  static py::object to_python(const Answer& answer)
+  {
+    return type_named("ScaledRegistration")(answer.scale, answer.scale_deviation, answer.registration,
+                                            to_matrix(answer.similarity()));
+  }
+};
+
+template <class Function>
+typename Function::Answer run(const Two_scans& both, const Method& method, const Time_budget& budget,
+                              Interruption& interruption, bool parallel)
 {
   std::array<std::shared_ptr<const Scan>, 2> scans;
   try {
     scans = both.prepared(method, budget, interruption, parallel);
   } catch (const CR::Preparation_interrupted& e) {
-    return interrupted_result(e.what());
+    return Function::of(interrupted_result(e.what()));
   }
   const auto np = p::time_budget(budget.left()).candidates(method).visitor(std::ref(interruption));
-  return parallel ? CR::register_scans<CGAL::Parallel_if_available_tag>(*scans[0], *scans[1], np)
-                  : CR::register_scans<CGAL::Sequential_tag>(*scans[0], *scans[1], np);
+  return parallel ? Function::template find<CGAL::Parallel_if_available_tag>(*scans[0], *scans[1], np)
+                  : Function::template find<CGAL::Sequential_tag>(*scans[0], *scans[1], np);
 }
 
 // Without the arguments' types, as errors of these have to name them.
-Result register_any(const py::object& source, const py::object& target, const py::object& viewpoint,
-                    const py::object& source_viewpoint, const py::object& target_viewpoint,
-                    const py::object& source_viewing_direction, const py::object& target_viewing_direction,
-                    const std::string& method_name, double minimum_extent, double maximum_extent,
-                    const std::optional<double>& tolerance, bool use_normals,
-                    const std::optional<double>& approximation_error,
-                    const std::optional<long long>& number_of_vertices, double cell_size,
-                    const std::optional<double>& time_budget, bool parallel, const py::object& progress)
+template <class Function>
+auto register_any(const py::object& source, const py::object& target, const py::object& viewpoint,
+                  const py::object& source_viewpoint, const py::object& target_viewpoint,
+                  const py::object& source_viewing_direction, const py::object& target_viewing_direction,
+                  const std::string& method_name, double minimum_extent, double maximum_extent,
+                  const std::optional<double>& tolerance, bool use_normals,
+                  const std::optional<double>& approximation_error, const std::optional<long long>& number_of_vertices,
+                  double cell_size, const std::optional<double>& time_budget, bool parallel, const py::object& progress)
 {
-  const Time_budget budget(time_budget, "register");
+  const Time_budget budget(time_budget, Function::name);
   const Two_scans both(
       source, target,
-      {viewpoint, source_viewpoint, target_viewpoint, source_viewing_direction, target_viewing_direction}, "register");
+      {viewpoint, source_viewpoint, target_viewpoint, source_viewing_direction, target_viewing_direction},
+      Function::name);
   const Method method({method_name,
                        minimum_extent,
                        maximum_extent,
                        tolerance,
                        use_normals,
                        {approximation_error, number_of_vertices, cell_size}},
-                      "register");
+                      Function::name);
   Interruption interruption(progress);
-  py::gil_scoped_release unlocked;
-  return run(both, method, budget, interruption, parallel);
+  const auto answer = [&] {
+    const py::gil_scoped_release unlocked;
+    return run<Function>(both, method, budget, interruption, parallel);
+  }();
+  return Function::to_python(answer);
 }
 
-py::object type_named(const char* name)
+template <class Function>
+void bind_register(py::module_& module, const char* doc)
 {
-  return py::module_::import("crude_registration._types").attr(name);
+  module.def(Function::name, &register_any<Function>, py::arg("source"), py::arg("target"), py::kw_only(),
+             py::arg("viewpoint") = py::none(), py::arg("source_viewpoint") = py::none(),
+             py::arg("target_viewpoint") = py::none(), py::arg("source_viewing_direction") = py::none(),
+             py::arg("target_viewing_direction") = py::none(), py::arg("method") = "pairs",
+             py::arg("minimum_extent") = 0., py::arg("maximum_extent") = CR::internal::default_maximum_extent,
+             py::arg("tolerance") = py::none(), py::arg("use_normals") = true,
+             py::arg("approximation_error") = py::none(), py::arg("number_of_vertices") = py::none(),
+             py::arg("cell_size") = 0., py::arg("time_budget") = py::none(), py::arg("parallel") = true,
+             py::arg("progress") = py::none(), doc);
 }
 
 std::string status_name(const Result& result)
@@ -300,13 +384,6 @@ void bind_registration(py::module_& module)
   result.def("__repr__", [](const Result& r) { return text_of(r); });
   result.def(py::pickle(&state_of, &from_state));
 
-  module.def("register", &register_any, py::arg("source"), py::arg("target"), py::kw_only(),
-             py::arg("viewpoint") = py::none(), py::arg("source_viewpoint") = py::none(),
-             py::arg("target_viewpoint") = py::none(), py::arg("source_viewing_direction") = py::none(),
-             py::arg("target_viewing_direction") = py::none(), py::arg("method") = "pairs",
-             py::arg("minimum_extent") = 0., py::arg("maximum_extent") = CR::internal::default_maximum_extent,
-             py::arg("tolerance") = py::none(), py::arg("use_normals") = true,
-             py::arg("approximation_error") = py::none(), py::arg("number_of_vertices") = py::none(),
-             py::arg("cell_size") = 0., py::arg("time_budget") = py::none(), py::arg("parallel") = true,
-             py::arg("progress") = py::none(), register_doc);
+  bind_register<With_known_scale>(module, register_doc);
+  bind_register<With_any_scale>(module, register_with_scale_doc);
 }

@@ -292,6 +292,7 @@ def test_any_arguments_of_the_tools_are_an_answer_or_an_error(data):
         lambda: cr.simulate(x, y, samples=data.draw(st.integers(-3, 30)), noise=data.draw(st.floats())),
         lambda: cr.Scan.from_bytes(z),
         lambda: cr.register(x, y, viewpoint=z, time_budget=1),
+        lambda: cr.register_with_scale(x, y, viewpoint=z, time_budget=1),
     ):
         try:
             call()

@@ -83,6 +83,9 @@ def test_meshes_and_points_give_the_answers_of_the_program(views, tmp_path, crud
     )
     answer = cr.register(meshes[0].points, meshes[1].points, viewpoint=(0, 0, 9))
     check_same(answer, printed)
+    # Nothing tells the side from which they were seen: both are tried.
+    printed = crude_register("register", tmp_path / "points_0.xyz", tmp_path / "points_1.xyz", "--json")
+    check_same(cr.register(meshes[0].points, meshes[1].points), printed)
     printed = crude_register(
         "register", tmp_path / "points_0.xyz", tmp_path / "points_1.xyz", "--json", "--method", "trihedra"
     )
@@ -98,6 +101,32 @@ def test_a_grid_is_a_range_image(views):
     expected = cr.register(cr.Scan(image), views[1].image)
     answer = cr.register(grid, views[1].image, source_viewing_direction=image.viewing_direction)
     assert answer.to_json() == expected.to_json()
+
+
+def test_scales_are_found_as_by_the_program(views, tmp_path, crude_register):
+    a, b = views[0].image.points, views[1].image.points
+    paths = [tmp_path / "a.npy", tmp_path / "b.npy"]
+    np.save(paths[0], a / 25.4)
+    np.save(paths[1], b)
+    printed = json.loads(crude_register("register", *paths, "--estimate-scale", "--json"))
+    answer = cr.register_with_scale(a / 25.4, b)
+    assert json.loads(answer.registration.to_json()) == {
+        name: printed.get(name) for name in json.loads(answer.registration.to_json())
+    }
+    assert answer.scale == printed["estimated_scale"] and answer.scale_deviation == printed["estimated_scale_deviation"]
+    assert abs(answer.scale / 25.4 - 1) < 0.01 and 0 < answer.scale_deviation < 0.01
+    check_right(answer.registration, views[0], views[1], cr.Scan(b).spacing)
+    motion = answer.registration.T_target_source
+    assert np.allclose(answer.similarity, motion @ np.diag([answer.scale] * 3 + [1]), rtol=1e-12, atol=1e-12)
+    assert cr.register_with_scale(cr.Scan(paths[0]), cr.Scan(paths[1]), parallel=False)[:2] == answer[:2]
+    other, _ = cr.simulate(cr.make_statue(resolution=48, seed=3), (0, 1, 0.3), samples=150)
+    lost = cr.register_with_scale(a, other)
+    assert lost.registration.status is not cr.RegistrationStatus.REGISTERED and lost.registration.reason
+    ended = cr.register_with_scale(a, b, progress=lambda share: False)
+    assert ended.scale == 1 and np.array_equal(ended.similarity, np.eye(4))
+    assert "interrupted" in ended.registration.reason
+    with pytest.raises(ValueError, match="register_with_scale: time_budget"):
+        cr.register_with_scale(a, b, time_budget=-1)
 
 
 def test_a_result_says_what_it_is(views):

@@ -29,6 +29,8 @@ def use(
     target = cr.Scan(points, normals=points)
     result = cr.register(source, target, time_budget=3.0, progress=say)
     result = cr.register(path, "target.ply", viewpoint=numpy.zeros(3))
+    scaled = cr.register_with_scale(path, source, time_budget=3.0, progress=say)
+    print(scaled.scale * scaled.scale_deviation, scaled.similarity @ scaled.registration.T_target_source)
     if result.status is cr.RegistrationStatus.REGISTERED:
         names: List[str] = result.free_motions
         print(names, result.poses[0].score, result.statistics[0].seconds)

@@ -261,6 +261,9 @@ BOOST_AUTO_TEST_CASE(normals_of_text_are_turned_and_colours_are_not)
   BOOST_TEST(moved("a.xyz", "1 2 3 10 0 1\n-4 5.5 6 0 -1 0\n") == "8 21 33 10 0 1\n4.5 16 36 0 -1 0\n");
   BOOST_TEST(moved("a.csv", "nx,ny,nz,x,y,z,nx2\n0,-2,0,1,2,3,4\n") == "nx,ny,nz,x,y,z,nx2\n2,0,0,8,21,33,4\n");
   BOOST_TEST(moved("a.csv", "nx,ny,x,y,z\n0,-2,1,2,3\n") == "nx,ny,x,y,z\n0,-2,8,21,33\n");
+  BOOST_TEST(moved("a.csv", "r,g,b,x,y,z\n9,0,255,1,2,3\n") == "r,g,b,x,y,z\n9,0,255,8,21,33\n");
+  BOOST_TEST(moved("a.xyz", "1 2 3 9 0 10 0 0 1\n-4 5.5 6 8 0 1 0 -1 0\n") ==
+             "8 21 33 9 0 10 0 0 1\n4.5 16 36 8 0 1 1 0 0\n");
 }
 
 BOOST_AUTO_TEST_CASE(ply_as_text_keeps_all_else)
@@ -361,6 +364,14 @@ BOOST_AUTO_TEST_CASE(arrays_keep_all_else)
         expected[i][5] = rows[i][5];
       }
       BOOST_TEST((moved("a.npy", npy_of(rows, type, fortran)) == npy_of(expected, type, fortran)));
+      // normals behind colours
+      std::vector<Numbers> wide = given, wide_moved = given_moved;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Numbers color = {9, 0, 255};
+        wide[i].insert(wide[i].begin() + 3, color.begin(), color.end());
+        wide_moved[i].insert(wide_moved[i].begin() + 3, color.begin(), color.end());
+      }
+      BOOST_TEST((moved("a.npy", npy_of(wide, type, fortran)) == npy_of(wide_moved, type, fortran)));
       for (std::size_t i = 0; i < 3; ++i) {
         rows[i].resize(4);
         expected[i].resize(4);
@@ -462,6 +473,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_moved_is_told)
   BOOST_TEST(refusal_of("a.las", "LASF").find("LAS") != std::string::npos);
   BOOST_TEST(refusal_of("a.png", "\x89PNG").find("depth image") != std::string::npos);
   BOOST_TEST(refusal_of("a.ts", "GOCAD TSurf 1").find("not written") != std::string::npos);
+  BOOST_TEST(refusal_of("a.gltf", "{\"asset\": {\"version\": \"2.0\"}}").find("not written") != std::string::npos);
   BOOST_TEST(refusal_of("a.vtp", "<VTKFile>").find("not written") != std::string::npos);
   // of a large file the beginning is looked at, or all of it
   const std::string large = std::string(std::size_t(1) << 21, ' ');

@@ -156,6 +156,64 @@ BOOST_AUTO_TEST_CASE(las_has_them_in_some_formats)
   BOOST_TEST(read("a.las", las(3, 34, 28, 0)).colors.empty());
 }
 
+BOOST_AUTO_TEST_CASE(text_has_them_behind_the_points)
+{
+  BOOST_TEST(are_equal(read("a.xyz", "1 2 3 255 0 10\n4 5 6 0 128 20\n0 8 9.5 7 8 255\n").colors, expected));
+  BOOST_TEST(are_equal(read("a.csv", "1;2;3;255;0;10\n4;5;6;0;128;20\n0;8;9,5;7;8;255\n").colors, expected));
+  // a point that is none takes its colour along
+  const auto file = read("a.xyz", "1 2 3 255 0 10\nnan nan nan 1 1 1\n4 5 6 0 128 20\n7 8 9.5 7 8 255\n");
+  BOOST_TEST(are_equal(file.colors, expected));
+  BOOST_TEST(file.normals.empty());
+  // PTS: the intensity, then the colour; behind a number of the point, too
+  BOOST_TEST(are_equal(read("a.pts", "3\n1 2 3 7 255 0 10\n4 5 6 8 0 128 20\n7 8 9.5 9 7 8 255\n").colors, expected));
+  BOOST_TEST(are_equal(read("a.PTS", "3\n1 2 3 -7 255 0 10\n4 5 6 8 0 128 20\n7 8 9.5 9 7 8 255\n").colors, expected));
+  BOOST_TEST(are_equal(read("a.txt", "1 2 2 3 255 0 10\n2 4 5 6 0 128 20\n3 7 8 9.5 7 8 255\n").colors, expected));
+  // a value behind the colour, which is no part of one; where both might be the colour there is none
+  BOOST_TEST(are_equal(read("a.txt", "1 2 3 255 0 10 .5\n4 5 6 0 128 20 .5\n0 8 9.5 7 8 255 .5\n").colors, expected));
+  BOOST_TEST(read("a.txt", "1 2 3 255 0 10 5\n4 5 6 0 128 20 5\n0 8 9.5 7 8 255 5\n").colors.empty());
+  // with normals, in either order
+  for (const char* text : {"1 2 3 255 0 10 1 0 0\n4 5 6 0 128 20 0 1 0\n0 8 9.5 7 8 255 0 0 1\n",
+                           "1 2 3 1 0 0 255 0 10\n4 5 6 0 1 0 0 128 20\n0 8 9.5 0 0 1 7 8 255\n"}) {
+    const auto both = read("a.xyz", text);
+    BOOST_TEST(are_equal(both.colors, expected));
+    BOOST_TEST_REQUIRE(both.normals.size() == 3u);
+    BOOST_TEST((both.normals[0] == Kernel::Vector_3(1, 0, 0) && both.normals[2] == Kernel::Vector_3(0, 0, 1)));
+  }
+  // by the names of the columns, as shares and as numbers of 16 bits as well
+  BOOST_TEST(are_equal(read("a.csv", "Red,x,y,z,Blue,Green\n255,1,2,3,10,0\n0,4,5,6,20,128\n7,7,8,9,255,8\n").colors,
+                       expected));
+  BOOST_TEST(are_equal(read("a.csv", "x,y,z,r,g,b\n1,2,3,0,.5,1\n4,5,6,1,1,0\n").colors,
+                       {Color(0, 128, 255), Color(255, 255, 0)}));
+  BOOST_TEST(are_equal(read("a.csv", "x,y,z,r,g,b\n1,2,3,0,65535,32768\n").colors, {Color(0, 255, 128)}));
+  BOOST_TEST(read("a.csv", "x,y,z,r,g,b\n1,2,3,-1,0,0\n").colors.empty());
+  // neither colours nor normals: other values, or not in all lines
+  BOOST_TEST(read("a.xyz", "1 2 3 256 0 10\n4 5 6 0 128 20\n").colors.empty());
+  BOOST_TEST(read("a.xyz", "1 2 3 2.5 0 10\n4 5 6 0 128 20\n").colors.empty());
+  BOOST_TEST(read("a.xyz", "1 2 3 255 0 10\n4 5 6\n").colors.empty());
+}
+
+BOOST_AUTO_TEST_CASE(arrays_have_them_behind_the_points)
+{
+  const auto npy = [](const std::string& shape, const std::vector<double>& numbers) {
+    const std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + shape + "), }\n";
+    std::string text = std::string("\x93NUMPY\1\0", 8) + bytes(std::uint16_t(header.size())) + header;
+    for (const double x : numbers) text += bytes(x);
+    return text;
+  };
+  BOOST_TEST(are_equal(
+      read("a.npy", npy("3, 6", {1, 2, 3, 255, 0, 10, 4, 5, 6, 0, 128, 20, 7, 8, 9, 7, 8, 255})).colors, expected));
+  for (const bool colors_first : {true, false}) {
+    const std::vector<double> table =
+        colors_first ? std::vector<double>{1, 2, 3, 9, 0, 10, 1, 0, 0, 4, 5, 7, 0, 128, 20, 0, 0, 1}
+                     : std::vector<double>{1, 2, 3, 1, 0, 0, 9, 0, 10, 4, 5, 7, 0, 0, 1, 0, 128, 20};
+    const auto file = read("a.npy", npy("2, 9", table));
+    BOOST_TEST(are_equal(file.colors, {Color(9, 0, 10), Color(0, 128, 20)}));
+    BOOST_TEST_REQUIRE(file.normals.size() == 2u);
+    BOOST_TEST((file.normals[1] == Kernel::Vector_3(0, 0, 1)));
+  }
+  BOOST_TEST(read("a.npy", npy("1, 6", {1, 2, 3, 0, 0, 256})).colors.empty());
+}
+
 BOOST_AUTO_TEST_CASE(obj_and_off)
 {
   const std::string faces = "f 1 2 3\n";

@@ -359,8 +359,8 @@ private:
     m_reduced = internal::reduce_scan(samples, sensor, {}, control);
     if (m_reduced.number_of_samples == 0)
       throw std::invalid_argument(name + " has no surface: the points are no samples of one that the sensor can see");
-    const bool is_prepared = internal::prepare_for(generator_of(np), 0, flat, sensor, np, name, control, m_reduced);
-    if (!samples.is_side_known && !is_prepared) {
+    internal::prepare_for(generator_of(np), 0, flat, sensor, np, name, control, m_reduced);
+    if (!samples.is_side_known && !m_reduced.simplified) { // a simplified mesh is of this side alone
       internal::turn_over(samples);
       m_other_side = std::make_shared<const Scan>(internal::reduce_scan(samples, sensor, {}, control));
     }

@@ -111,8 +111,10 @@ x 3;
 - any other text (`.xyz`, `.txt`, `.asc`, `.pts`, `.csv`, ...): points, one a line. Words are separated by white space,
   or by semicolons or commas if the first line of numbers has them; they may stand in quotation marks. With semicolons,
   or with white space where each word has a comma, a comma is that of a decimal number. The first three words are x, y
-  and z; if exactly three more follow in each line and are unit vectors, they are normals; what else follows is passed
-  over. A first column of growing whole numbers before three others or more numbers the points, and is passed over.
+  and z; of three or six more in each line, three that are unit vectors are normals, and three that are whole numbers
+  from 0 to 255 colours, as are the last three of four in a `.pts` file, behind the intensity, and in others those of
+  four that can be meant; what else follows is passed over. A first column of growing whole numbers before three others
+  or more numbers the points, and is passed over.
   Lines that start with `#`, `//` or `%` are comments. The lines before the points that do not start with a number are
   passed over, if the last of them does not have as many words as the points have columns: such a line names the
 columns, three of which are `x`, `y` and `z` (or `Points:0` to `Points:2`), and those of normals `nx`, `ny` and `nz` (or
@@ -122,9 +124,11 @@ line before the points may hold their number alone.
 Each of these may be packed by gzip (`.xyz.gz`), where the program was built with Boost.Iostreams.
 
 Colours are read from PLY (`red`, `green`, `blue`), PCD (`rgb`, `rgba`), PTX, LAS, glTF (`COLOR_0`), OBJ (three numbers
-behind the coordinates) and OFF (`COFF`); parts are from 0 to 255, those of 16 bits and shares are rounded to that.
+behind the coordinates), OFF (`COFF`), arrays of n x 6 or n x 9 (as in text) and text, where columns may be named `r`,
+`g`, `b` or `red`, `green`, `blue`; parts are from 0 to 255, those of 16 bits and shares are rounded to that.
 
-Normals are read from PLY (`nx`, `ny`, `nz`), PCD (`normal_x`, ...), the points of glTF, arrays of n x 6 and text.
+Normals are read from PLY (`nx`, `ny`, `nz`), PCD (`normal_x`, ...), the points of glTF, arrays of n x 6 or n x 9 and
+text.
 
 Where a mesh's faces do not form an oriented manifold, faces are turned and vertices are split until they do; faces that
 name a vertex twice and vertices without a face are left out.

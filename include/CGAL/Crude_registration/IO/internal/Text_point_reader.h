@@ -17,7 +17,7 @@
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/internal/Flat_scan_file.h>
 #include <CGAL/Crude_registration/IO/internal/Text_cursor.h>
-#include <CGAL/Crude_registration/IO/internal/column_normals.h>
+#include <CGAL/Crude_registration/IO/internal/column_roles.h>
 
 #include <algorithm>
 #include <array>
@@ -63,17 +63,18 @@ public:
   template <class Number, class End>
   void for_each_number(const Number& number, const End& end) const
   {
+    const auto past = m_places.begin() + RED;
     std::size_t last = 0;
-    for (const std::size_t place : m_places)
-      if (place != none) last = (std::max)(last, place);
+    for (auto it = m_places.begin(); it != past; ++it)
+      if (*it != none) last = (std::max)(last, *it);
     Text_cursor cursor = *m_first_point;
     do {
       for (std::size_t place = 0; place <= last; ++place) {
-        const auto it = std::find(m_places.begin(), m_places.end(), place);
+        const auto it = std::find(m_places.begin(), past, place);
         double value = 0;
-        if (it != m_places.end()) Text_cursor(cursor).try_number(value);
+        if (it != past) Text_cursor(cursor).try_number(value);
         const std::string_view word = cursor.word();
-        if (it != m_places.end()) number(static_cast<std::size_t>(it - m_places.begin()), word, value);
+        if (it != past) number(static_cast<std::size_t>(it - m_places.begin()), word, value);
       }
       end();
     } while (next_point(cursor));
@@ -91,6 +92,9 @@ private:
     NX,
     NY,
     NZ,
+    RED,
+    GREEN,
+    BLUE,
     COLUMNS
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -233,6 +237,7 @@ private:
 
   static bool has_coordinates(const Places& p) { return p[X] != none && p[Y] != none && p[Z] != none; }
   static bool has_normals(const Places& p) { return p[NX] != none && p[NY] != none && p[NZ] != none; }
+  static bool has_colors(const Places& p) { return p[RED] != none && p[GREEN] != none && p[BLUE] != none; }
 
   // where the columns stand whose names are the words of a line, and how many words there are
   static Places places_of(Text_cursor words, std::size_t& count)
@@ -243,7 +248,10 @@ private:
          {"z", "points:2", "points_2"},
          {"nx", "normal_x", "normals:0", "normals_0"},
          {"ny", "normal_y", "normals:1", "normals_1"},
-         {"nz", "normal_z", "normals:2", "normals_2"}}};
+         {"nz", "normal_z", "normals:2", "normals_2"},
+         {"r", "red"},
+         {"g", "green"},
+         {"b", "blue"}}};
     Places places = no_places();
     for (count = 0; words.has_word(); ++count) {
       std::string name(words.word());
@@ -266,21 +274,29 @@ private:
     const bool normals = has_normals(m_places);
     if (!normals) m_places[NX] = m_places[NY] = m_places[NZ] = none;
     if (normals) last = (std::max)({last, m_places[NX], m_places[NY], m_places[NZ]});
+    const bool colors = has_colors(m_places);
+    if (!colors) m_places[RED] = m_places[GREEN] = m_places[BLUE] = none;
+    if (colors) last = (std::max)({last, m_places[RED], m_places[GREEN], m_places[BLUE]});
+    std::vector<Vector> parts;
     do {
       std::array<double, COLUMNS> values{};
       for (std::size_t place = 0; place <= last; ++place) {
         const auto it = std::find(m_places.begin(), m_places.end(), place);
         const std::size_t column = static_cast<std::size_t>(it - m_places.begin());
         if (column < NX) values[column] = m_cursor.number("a coordinate");
-        else if (column < COLUMNS && normals) values[column] = m_cursor.number("a coordinate of the normal");
+        else if (column < RED) values[column] = m_cursor.number("a coordinate of the normal");
+        else if (column < COLUMNS) values[column] = m_cursor.number("a part of the colour");
         else m_cursor.word();
       }
       scan.points.emplace_back(values[X], values[Y], values[Z]);
       if (normals) scan.normals.push_back(unit_normal(Vector(values[NX], values[NY], values[NZ])));
+      if (colors) parts.emplace_back(values[RED], values[GREEN], values[BLUE]);
     } while (next_point(m_cursor));
+    take_named_colors(parts, scan);
   }
 
-  // Seven columns are looked at: a number of the point, the point, its normal.
+  // Ten columns are looked at: a number of the point, the point, its normal and its colour in either order. PTS has an
+  // intensity before the colour, others have it behind.
   void read_unnamed(Flat_scan_file& scan)
   {
     const std::size_t width = std::clamp(number_of_words(m_cursor), std::size_t(3), std::size_t(COLUMNS) + 1);
@@ -318,16 +334,43 @@ private:
       scan.points.emplace_back(p[0], p[1], p[2]);
     }
     for (std::size_t column = 0; column < 3; ++column) m_places[column] = first + column;
-    if (fewest != first + 6 || most != first + 6) return;
-    std::vector<Vector> others;
-    others.reserve(rows);
-    for (std::size_t i = 0; i < rows; ++i) {
-      const double* v = &table[i * width + first + 3];
-      others.emplace_back(v[0], v[1], v[2]);
+    if (fewest != most) return;
+    const auto columns_from = [&](std::size_t column) {
+      std::vector<Vector> columns;
+      columns.reserve(rows);
+      for (std::size_t i = 0; i < rows; ++i) {
+        const double* v = &table[i * width + column];
+        columns.emplace_back(v[0], v[1], v[2]);
+      }
+      return columns;
+    };
+    const auto take = [&](std::size_t column) {
+      if (take_columns(columns_from(column), scan) != NORMAL_COLUMNS) return;
+      for (std::size_t k = 0; k < 3; ++k) m_places[NX + k] = column + k;
+    };
+    switch (most - first) {
+    case 7: {
+      const bool are_last = role_of_columns(columns_from(first + 4)) == COLOR_COLUMNS,
+                 are_first = role_of_columns(columns_from(first + 3)) == COLOR_COLUMNS;
+      if (are_last && (is_pts() || !are_first)) take(first + 4);
+      else if (are_first && !are_last) take(first + 3);
+      break;
     }
-    take_unit_columns(std::move(others), scan);
-    if (scan.normals.empty()) return;
-    for (std::size_t column = NX; column < COLUMNS; ++column) m_places[column] = first + column;
+    case 9:
+      take(first + 6);
+      [[fallthrough]];
+    case 6:
+      take(first + 3);
+    }
+  }
+
+  bool is_pts() const
+  {
+    const std::string& file = m_cursor.file();
+    std::string end = file.size() < 4 ? std::string() : file.substr(file.size() - 4);
+    for (char& c : end)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return end == ".pts";
   }
 
   static bool is_integer(std::string_view line, double value)

@@ -242,7 +242,7 @@ inline Moved_file moved_npy(const std::string& data, const Similarity& motion, c
   form.is_big_endian = reader.is_big_endian();
   for (std::size_t i = 0; i < raw.points.size(); ++i) {
     for (std::size_t k = 0; k < columns; ++k) {
-      const std::size_t at = reader.place(i, k);
+      const std::size_t at = reader.place(i, k < 3 ? k : reader.normals_at() + k - 3);
       const double value = form.is_double ? number_at<double>(data, at, form.is_big_endian)
                                           : static_cast<double>(number_at<float>(data, at, form.is_big_endian));
       moved.number(k, std::string_view(data).substr(at, size), value, form);

@@ -17,7 +17,7 @@
 #include <CGAL/Crude_registration/IO/IO_error.h>
 #include <CGAL/Crude_registration/IO/internal/Flat_scan_file.h>
 #include <CGAL/Crude_registration/IO/internal/binary_numbers.h>
-#include <CGAL/Crude_registration/IO/internal/column_normals.h>
+#include <CGAL/Crude_registration/IO/internal/column_roles.h>
 
 #include <charconv>
 #include <cstddef>
@@ -34,8 +34,9 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// An array of n x 3 or more floating-point numbers: points, and where it is n x 6 and the last three are unit vectors,
-// their normals; or of rows x columns x 3: a range image. NaN is left.
+// An array of n x 3 or more floating-point numbers: points, and where it is n x 6 or n x 9, their normals if these are
+// unit vectors, and their colours if they are whole numbers from 0 to 255; or of rows x columns x 3: a range image. NaN
+// is left.
 class Npy_reader
 {
 public:
@@ -50,14 +51,14 @@ public:
     const std::size_t n = is_image ? m_shape[0] * m_shape[1] : m_shape[0], width = m_shape.back();
     Flat_scan_file scan;
     scan.points.reserve(n);
-    std::vector<Vector> others;
-    const bool has_others = !is_image && width == 6;
-    if (has_others) others.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      scan.points.emplace_back(at(i, 0), at(i, 1), at(i, 2));
-      if (has_others) others.emplace_back(at(i, 3), at(i, 4), at(i, 5));
-    }
-    if (has_others) take_unit_columns(std::move(others), scan);
+    for (std::size_t i = 0; i < n; ++i) scan.points.emplace_back(at(i, 0), at(i, 1), at(i, 2));
+    if (!is_image && (width == 6 || width == 9))
+      for (std::size_t column = 3; column < width; column += 3) {
+        std::vector<Vector> columns;
+        columns.reserve(n);
+        for (std::size_t i = 0; i < n; ++i) columns.emplace_back(at(i, column), at(i, column + 1), at(i, column + 2));
+        if (take_columns(std::move(columns), scan) == NORMAL_COLUMNS) m_normals_at = column;
+      }
     if (is_image) {
       scan.kind = Flat_scan_file::RANGE_IMAGE;
       scan.rows = m_shape[0];
@@ -68,7 +69,8 @@ public:
     return scan;
   }
 
-  // After read(), for what writes the file anew: where a number of a point stands, and how.
+  // After read(), for what writes the file anew: where a number of a point stands, and how; and the first column of its
+  // normal, where it has one.
   std::size_t place(std::size_t i, std::size_t k) const
   {
     const std::size_t width = m_shape.back();
@@ -80,6 +82,7 @@ public:
     }
     return m_body + at * m_size;
   }
+  std::size_t normals_at() const { return m_normals_at; }
   std::size_t size_of_number() const { return m_size; }
   bool is_big_endian() const { return m_big_endian; }
 
@@ -158,7 +161,7 @@ private:
 
   std::string_view m_data;
   const std::string& m_file;
-  std::size_t m_body = 0, m_size = 0;
+  std::size_t m_body = 0, m_size = 0, m_normals_at = 3;
   bool m_big_endian = false, m_fortran = false;
   std::vector<std::size_t> m_shape;
 };

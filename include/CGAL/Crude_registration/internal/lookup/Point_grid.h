@@ -67,6 +67,27 @@ public:
     for_each_row(p, radius, [&](std::size_t from, std::size_t to) { for_each_of(p, radius, from, to, f); });
   }
 
+  // The differences to p of the points within `radius` of it, in the order of for_each_within(): to `differences`,
+  // which is as large as is needed and more. Returns how many there are.
+  std::size_t differences_within(const Vector& p, double radius, std::vector<Vector>& differences) const
+  {
+    std::size_t n = 0;
+    const Vector place = p;
+    for_each_row(place, radius, [&](std::size_t from, std::size_t to) {
+      if (differences.size() < n + (to - from)) differences.resize(2 * (n + (to - from)));
+      Vector* next = differences.data() + n;
+      const Entry* const entries = m_entries.items().data();
+      for (std::size_t e = from; e < to; ++e) {
+        const double x = entries[e].point[0] - place[0], y = entries[e].point[1] - place[1],
+                     z = entries[e].point[2] - place[2];
+        *next = Vector(x, y, z);
+        next += x * x + y * y + z * z <= radius * radius;
+      }
+      n = std::size_t(next - differences.data());
+    });
+    return n;
+  }
+
   // f(index, other index, squared distance) for every pair of points within `radius` of each other, once, in an order
   // fixed by the points alone, as long as f returns true.
   template <class Function>

@@ -20,20 +20,17 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// Whether `generator` has a preparation for such arguments. It is called then.
+// Calls the preparation of `generator` for such arguments, where it has one.
 template <class Generator, class... Arguments>
 auto prepare_for(const Generator& generator, int, Arguments&&... arguments)
-    -> decltype(generator.prepare(std::forward<Arguments>(arguments)...), true)
+    -> decltype(generator.prepare(std::forward<Arguments>(arguments)...))
 {
   generator.prepare(std::forward<Arguments>(arguments)...);
-  return true;
 }
 
 template <class Generator, class... Arguments>
-bool prepare_for(const Generator&, long, Arguments&&...)
-{
-  return false;
-}
+void prepare_for(const Generator&, long, Arguments&&...)
+{}
 
 } // namespace internal
 } // namespace Crude_registration

@@ -44,12 +44,15 @@ public:
     const Vector size = ((high - corner) / cell).array().floor() + 1;
     if (!(size.prod() <= double(1 << 21))) return;
     for (std::size_t k = 0; k < 3; ++k) m_cells[k] = std::int32_t(size[Eigen::Index(k)]);
-    m_grid.assign(std::size_t(m_cells[0]) * std::size_t(m_cells[1]) * std::size_t(m_cells[2]), -1);
+    m_strides = {1, m_cells[0] + 2, (m_cells[0] + 2) * (m_cells[1] + 2)};
+    m_grid.assign(std::size_t(m_strides[2]) * std::size_t(m_cells[2] + 2), outside);
+    for (std::int32_t z = 0; z < m_cells[2]; ++z)
+      for (std::int32_t y = 0; y < m_cells[1]; ++y) std::fill_n(m_grid.begin() + index({0, y, z}), m_cells[0], empty);
     for (std::size_t i = 0; i < m_points.size(); ++i) {
       const Vector q = (m_points[i] - m_corner) / m_cell;
       std::array<std::int32_t, 3> c{};
       for (std::size_t k = 0; k < 3; ++k) c[k] = (std::min)(std::int32_t(q[Eigen::Index(k)]), m_cells[k] - 1);
-      m_grid[index(c)] = std::int32_t(i);
+      m_grid[std::size_t(index(c))] = std::int32_t(i);
     }
   }
 
@@ -89,25 +92,28 @@ public:
       leave = (std::min)(leave, (std::max)(low / d[e], high / d[e]));
     }
     if (!(enter < leave)) return true;
-    // From cell to cell (Amanatides and Woo 1987).
+    // From cell to cell (Amanatides and Woo 1987), to which one without a branch: nobody can foretell it.
     std::array<std::int32_t, 3> c{}, step{};
     std::array<double, 3> next{}, width{};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto e = Eigen::Index(k);
       const double x = (from[e] + enter * d[e] - m_corner[e]) / m_cell;
       c[k] = (std::min)((std::max)(std::int32_t(std::floor(x)), 0), m_cells[k] - 1);
-      step[k] = d[e] > 0 ? 1 : -1;
+      step[k] = d[e] > 0 ? m_strides[k] : -m_strides[k];
       width[k] = d[e] != 0 ? m_cell / std::abs(d[e]) : infinite;
       next[k] = d[e] != 0 ? (m_corner[e] + (c[k] + (d[e] > 0 ? 1 : 0)) * m_cell - from[e]) / d[e] : infinite;
     }
+    std::int32_t at = index(c);
+    double x = next[0], y = next[1], z = next[2];
     for (;;) {
-      const std::int32_t i = m_grid[index(c)];
-      if (i >= 0 && is_blocked(std::size_t(i), from, d, start, length)) return false;
-      const std::size_t k = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-      if (next[k] > leave) return true;
-      c[k] += step[k];
-      if (c[k] < 0 || c[k] >= m_cells[k]) return true;
-      next[k] += width[k];
+      const std::int32_t i = m_grid[std::size_t(at)];
+      if (i == outside || (i != empty && is_blocked(std::size_t(i), from, d, start, length))) return i == outside;
+      const bool is_x = (x < y) & (x < z), is_y = !(x < y) & (y < z), is_z = !(is_x | is_y);
+      if ((is_x ? x : is_y ? y : z) > leave) return true;
+      at += is_x ? step[0] : is_y ? step[1] : step[2];
+      x += is_x ? width[0] : 0;
+      y += is_y ? width[1] : 0;
+      z += is_z ? width[2] : 0;
     }
   }
 
@@ -122,16 +128,18 @@ private:
     return t > start && t < length && (t * d - to).squaredNorm() < radius * radius * m_cell * m_cell;
   }
 
-  std::size_t index(const std::array<std::int32_t, 3>& c) const
+  // Around the grid there is a layer of cells that are outside.
+  static constexpr std::int32_t empty = -1, outside = -2;
+
+  std::int32_t index(const std::array<std::int32_t, 3>& c) const
   {
-    return (std::size_t(c[2]) * std::size_t(m_cells[1]) + std::size_t(c[1])) * std::size_t(m_cells[0]) +
-           std::size_t(c[0]);
+    return (c[2] + 1) * m_strides[2] + (c[1] + 1) * m_strides[1] + c[0] + 1;
   }
 
   std::vector<Vector> m_points, m_normals;
   Vector m_corner;
   double m_cell;
-  std::array<std::int32_t, 3> m_cells{};
+  std::array<std::int32_t, 3> m_cells{}, m_strides{};
   std::vector<std::int32_t> m_grid;
 };
 

@@ -168,24 +168,20 @@ private:
       control.check();
     }
     Plane_fit fit;
-    m_around.clear();
-    m_grids[scale]->for_each_within(p, radius(scale), [&](std::int32_t j, double) {
-      m_around.push_back(points[std::size_t(j)] - p);
-      fit.add(m_around.back());
-    });
+    const std::size_t n = m_grids[scale]->differences_within(p, radius(scale), m_around);
     constexpr std::size_t fewest = 5;
     constexpr double thinnest = 0.08; // a half disc has 0.28, two lines at a radius's distance more
-    if (fit.count() < fewest) return Plane_fit();
+    if (n < fewest) return Plane_fit();
+    for (std::size_t i = 0; i < n; ++i) fit.add(m_around[i]);
     fit.solve();
     if (!(fit.middle() > thinnest * fit.largest())) return Plane_fit();
     const Vector u = fit.tangent(), v = fit.normal().cross(u);
     const double inner = 0.3 * radius(scale);
     unsigned sectors = 0;
-    for (const Vector& d : m_around) {
-      const double x = d.dot(u), y = d.dot(v);
-      if (x * x + y * y < inner * inner) continue;
-      const unsigned sector = (x < 0 ? 1u : 0u) | (y < 0 ? 2u : 0u) | (std::abs(x) < std::abs(y) ? 4u : 0u);
-      sectors |= 1u << sector;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = m_around[i].dot(u), y = m_around[i].dot(v);
+      const unsigned sector = unsigned(x < 0) | unsigned(y < 0) << 1 | unsigned(std::abs(x) < std::abs(y)) << 2;
+      sectors |= unsigned(!(x * x + y * y < inner * inner)) << sector;
     }
     unsigned count = 0;
     for (; sectors != 0; sectors &= sectors - 1) ++count;

@@ -25,7 +25,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -47,12 +49,12 @@ public:
     measure();
     std::vector<Place> places = all_places();
     // The fewer places are left, the more samples are asked: about as many lines in each round.
+    constexpr double all = 0.95, most = 0.7, half_of_the_sphere = 0.5;
     keep_best(places, 0, 25, 200);
     keep_best(places, 25, 75, 60);
     keep_best(places, 100, 250, 20);
-    keep_best(places, 350, 1000, places.size());
+    keep_best(places, 350, 1000, 1, all);
     // A body seen from one side is as visible from behind: the surface bulges towards the sensor, if anywhere.
-    constexpr double all = 0.95, most = 0.7, half_of_the_sphere = 0.5;
     const Place& best = places.front();
     for (const Place& p : places)
       if (p.visible >= all && bulge(p.position) > 0) return p.position;
@@ -92,23 +94,44 @@ private:
     return places;
   }
 
-  // Leaves the places from where most of `n` samples are visible: from the one numbered `from` on, around the end.
-  void keep_best(std::vector<Place>& places, std::size_t from, std::size_t n, std::size_t kept) const
+  // Leaves the places from where most of `n` samples are visible, and all from where a share of `enough` is: from the
+  // sample numbered `from` on, around the end. A place is given up where the samples that are left cannot bring it
+  // among those any more.
+  void keep_best(std::vector<Place>& places, std::size_t from, std::size_t n, std::size_t kept, double enough = 2) const
   {
     n = (std::min)(n, m_samples.size());
+    std::vector<double> best; // the shares of the best ones so far, as a heap with the least one in front
+    std::vector<Place> left;
     for (Place& p : places) {
       m_control.check();
+      // Shares of a thousand samples differ by more than this; of equal ones none is given up.
+      constexpr double rounding = 1e-9;
+      const double least = best.size() < kept ? 0 : (std::min)(best.front(), enough) - rounding;
       double visible = 0, seen = 0;
-      for (std::size_t i = from; i < from + n; ++i) {
-        const int v = m_lines.visibility(std::size_t(m_samples[i % m_samples.size()]), p.position);
+      const auto is_out_of_reach = [&](std::size_t samples) { // even if all of so many more are visible
+        return visible + double(samples) < least * (seen + double(samples));
+      };
+      bool is_left = true;
+      for (std::size_t i = 0; i < n && is_left; ++i) {
+        const int v = m_lines.visibility(std::size_t(m_samples[(from + i) % m_samples.size()]), p.position);
         visible += v > 0;
         seen += v != 0;
+        is_left = !is_out_of_reach(n - 1 - i);
       }
+      if (!is_left) continue;
       p.visible = seen > 0 ? visible / seen : 0;
+      left.push_back(p);
+      best.push_back(p.visible);
+      std::push_heap(best.begin(), best.end(), std::greater<>());
+      if (best.size() <= kept) continue;
+      std::pop_heap(best.begin(), best.end(), std::greater<>());
+      best.pop_back();
     }
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place& a, const Place& b) { return a.visible > b.visible; });
-    places.resize((std::min)(kept, places.size()));
+    std::stable_sort(left.begin(), left.end(), [](const Place& a, const Place& b) { return a.visible > b.visible; });
+    std::size_t number = (std::min)(kept, left.size());
+    while (number < left.size() && left[number].visible >= enough) ++number;
+    left.resize(number);
+    places = std::move(left);
   }
 
   // Six times the volume, over that of a cell's cube or so, between the surface, turned to the place, and the centroid.
