@@ -546,7 +546,7 @@ holds /normals_towards_sensor 900
 expect 0 info plane_0_normals.xyz
 says "missing:    1 more"
 says "normals:    1200 in the file"
-says "note:       The three columns behind"
+says "note:       Three columns behind"
 
 # Files that do not parse, with the line where it has one; no surface; coordinates that are no numbers.
 printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2\n' \
