@@ -69,23 +69,20 @@ Trial_scans make_scans(std::size_t scenes, unsigned first_seed)
 }
 
 // Whether the mirrored view of a scene, moved to the plain one, lies on the scene: the root mean square distance of all
-// its points from the surface, seen or not, is at most twice that of the view as it was seen. `motion`: of the plain
-// one to the mirrored one.
+// its points from the surface, seen or not, is at most two sampling distances, from which on a motion is told to be
+// wrong. `motion`: of the plain one to the mirrored one.
 bool is_own_mirror_image(const benchmark_tools::Simulated_set& set, const Kernel::Aff_transformation_3& motion)
 {
   using Primitive = CGAL::AABB_face_graph_triangle_primitive<benchmark_tools::Simulated_set::Mesh>;
   const auto& mesh = set.mesh();
   const CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(faces(mesh).first, faces(mesh).second, mesh);
-  const auto mean_square = [&](const auto& points, const Kernel::Aff_transformation_3& scene_from_scan) {
-    double sum = 0;
-    for (const Kernel::Point_3& p : points) sum += CGAL::to_double(tree.squared_distance(scene_from_scan(p)));
-    return sum / double(points.size());
-  };
-  const auto& views = set.views();
-  const auto mirrored = benchmark_tools::mirrored(views[1].image);
-  constexpr double twice = 4; // of squares
-  return mean_square(mirrored.points(), views[0].scene_from_scan * motion.inverse()) <=
-         twice * mean_square(views[1].image.points(), views[1].scene_from_scan);
+  const Kernel::Aff_transformation_3 scene_from_mirrored = set.views()[0].scene_from_scan * motion.inverse();
+  const auto mirrored = benchmark_tools::mirrored(set.views()[1].image);
+  double sum = 0;
+  for (const Kernel::Point_3& p : mirrored.points())
+    sum += CGAL::to_double(tree.squared_distance(scene_from_mirrored(p)));
+  const double most = 2 * set.spacing(1);
+  return sum <= most * most * double(mirrored.points().size());
 }
 
 // The bound of a rate of `count` in `n`: of a Poisson number, at 95 %, by its normal approximation beyond none.

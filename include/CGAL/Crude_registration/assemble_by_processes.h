@@ -117,8 +117,10 @@ auto assemble_scans_by(const Pair_executor& executor, const ScanRange& scans,
   const internal::Round_registration by_executor = [&executor](const std::vector<internal::Input_pair>& pairs,
                                                                internal::Run_control& control) {
     std::vector<Scan_places> places;
+    places.reserve(pairs.size());
     for (const internal::Input_pair& p : pairs) places.push_back({p.source, p.target});
     std::vector<internal::Pair_answer> answers;
+    answers.reserve(pairs.size());
     for (const std::string& bytes : executor(places, [&control] { return control.go_on(); }))
       answers.push_back(internal::answer_of_bytes(bytes));
     return answers;

@@ -219,7 +219,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Redu
       target.own_from_input * (is_swapped ? motion.inverse() : motion) * source.own_from_input.inverse();
   // The given one takes the place of what the search found of it.
   const auto poses = [&](const Pose_judge& judge, bool is_usual) {
-    const std::vector<Judged_pose> others = judge.distinct_poses(is_usual);
+    std::vector<Judged_pose> others = judge.distinct_poses(is_usual);
     if (others.empty()) return others; // nothing is known of chance
     Judged_pose given = judge.weighed(judge.refined(to_pose(own)));
     given.proposed = to_pose(own);
