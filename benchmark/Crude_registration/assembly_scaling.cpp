@@ -10,6 +10,7 @@
 
 #include "child_process.h"
 #include "command_line.h"
+#include "plot_script.h"
 
 #include <CGAL/Crude_registration/assemble_scans.h>
 #include <CGAL/Crude_registration/simulation/make_statue.h>
@@ -32,6 +33,7 @@
 #include <iostream>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -138,6 +140,31 @@ Row measure(std::size_t bodies, std::size_t n, std::size_t samples)
   return row;
 }
 
+// Of the table `csv`, one curve for each of `bodies`.
+void write_plot(const std::string& file, const std::string& csv, const std::vector<std::size_t>& bodies)
+{
+  CR::write_file(file, [&](std::ostream& out) {
+    const auto curves = [&](const char* column) {
+      out << "plot ";
+      for (std::size_t k = 0; k < bodies.size(); ++k)
+        out << (k == 0 ? "" : ", \\\n     ") << benchmark_tools::quoted(csv) << " using ($1 == " << bodies[k]
+            << " ? $2 : NaN):" << column << " skip 1 with linespoints title '" << bodies[k]
+            << (bodies[k] == 1 ? " body'" : " bodies'");
+      out << '\n';
+    };
+    out << "set terminal pngcairo size 800,900\n"
+        << "set output " << benchmark_tools::quoted(file + ".png") << '\n'
+        << "set datafile separator ','\nset datafile missing NaN\n"
+        << "set multiplot layout 2,1\n"
+        << "set logscale xy\nset grid\nset key left top\nset xlabel 'scans'\n"
+        << "set ylabel 'preparation and assembly [s]'\n";
+    curves("($11 + $12)");
+    out << "set ylabel 'peak memory [MB]'\n";
+    curves("15");
+    out << "unset multiplot\n";
+  });
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -145,15 +172,17 @@ int main(int argc, char** argv)
   try {
     std::vector<std::size_t> sizes, bodies;
     std::size_t samples;
-    std::string csv;
+    std::string csv, plot;
     po::options_description options("assembly_scaling: assembles more and more generated scans");
     options.add_options()("help,h", "this text")(
         "sizes", po::value(&sizes)->multitoken()->default_value({30, 100, 300}, "30 100 300"), "numbers of scans")(
         "bodies", po::value(&bodies)->multitoken()->default_value({1, 3}, "1 3"),
         "numbers of bodies")("samples", po::value(&samples)->default_value(40000),
-                             "of a scan, about")("csv", po::value(&csv), "a file for the table as CSV");
+                             "of a scan, about")("csv", po::value(&csv), "a file for the table as CSV")(
+        "plot", po::value(&plot), "a file for a script of gnuplot that draws the file of --csv");
     po::variables_map values;
     if (!benchmark_tools::read_options(argc, argv, options, values)) return EXIT_SUCCESS;
+    if (!plot.empty() && csv.empty()) throw std::invalid_argument("--plot draws the file of --csv, which is missing");
     std::ostringstream table;
     table << "bodies,scans,samples,pairs,pairs_a_scan,components,largest,wrong,degrees,distances,prepare_seconds,"
              "assemble_seconds,relax_seconds,scans_megabytes,peak_megabytes\n";
@@ -176,6 +205,7 @@ int main(int argc, char** argv)
         std::cout << text << std::endl;
       }
     if (!csv.empty()) CR::write_file(csv, [&](std::ostream& out) { out << table.str(); });
+    if (!plot.empty()) write_plot(plot, csv, bodies);
     return EXIT_SUCCESS;
   } catch (const std::exception& e) {
     std::cerr << "assembly_scaling: " << e.what() << '\n';

@@ -277,9 +277,13 @@ private:
       if (std::any_of(distinct.begin(), distinct.end(), is_same)) continue;
       distinct.push_back(h);
     }
+    // Nor where no motion would be trusted if none of the scans were in free space: it takes every scan with every
+    // other.
+    const bool is_hopeless = std::all_of(distinct.begin(), distinct.end(),
+                                         [&](const auto& h) { return h.first < trusted_join * (none + h.first); });
     double sum = none;
     for (auto& h : distinct) {
-      h.second.violations = violations(h.second);
+      if (!is_hopeless) h.second.violations = violations(h.second);
       h.first *=
           std::exp(-m_coefficients.free_space * (std::max)(0., h.second.violations - m_coefficients.at_the_rims));
       sum += h.first;
