@@ -277,7 +277,19 @@ struct Law_of_shares
   }
 };
 
-// The law of whether any of the poses is right, of the leading one by the shares.
+// Of each choice whether any of the poses is right, by `features`, a function of the leading one.
+template <class Logit, class Features>
+Logit logit_of_any(const std::vector<Choice>& choices, const Coefficients& c, bool is_usual, const Features& features)
+{
+  Logit result;
+  for (const Choice& choice : choices) {
+    const std::vector<CRI::Judged_pose> poses = judged(choice, c);
+    result.add_choice({features(CRI::leading_pose(poses, is_usual, c))}, choice.right < 0 ? -1 : 0, choice.setting);
+  }
+  return result;
+}
+
+// The law of whether any of the poses is right.
 struct Law_of_any
 {
   using Logit = benchmark_tools::Conditional_logit<5>;
@@ -287,16 +299,12 @@ struct Law_of_any
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
-    Logit result;
-    for (const Choice& choice : choices) {
-      const std::vector<CRI::Judged_pose> poses = judged(choice, c);
-      const CRI::Leading_pose leading = CRI::leading_pose(poses, false, c);
+    return logit_of_any<Logit>(choices, c, false, [](const CRI::Leading_pose& leading) {
       const CRI::Pose_evidence& e = leading.pose->evidence;
       Logit::Features f;
       f << leading.root, e.residual, std::sqrt(e.violations), leading.lead, 1;
-      result.add_choice({f}, choice.right < 0 ? -1 : 0, choice.setting);
-    }
-    return result;
+      return f;
+    });
   }
 };
 
@@ -310,15 +318,10 @@ struct Law_of_usual_any
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
-    Logit result;
-    for (const Choice& choice : choices) {
-      const std::vector<CRI::Judged_pose> poses = judged(choice, c);
-      const CRI::Leading_pose leading = CRI::leading_pose(poses, true, c);
+    return logit_of_any<Logit>(choices, c, true, [](const CRI::Leading_pose& leading) {
       const CRI::Pose_evidence& e = leading.pose->evidence;
-      result.add_choice({{leading.root, e.residual, std::sqrt(e.violations), 1}}, choice.right < 0 ? -1 : 0,
-                        choice.setting);
-    }
-    return result;
+      return Logit::Features(leading.root, e.residual, std::sqrt(e.violations), 1);
+    });
   }
 };
 
