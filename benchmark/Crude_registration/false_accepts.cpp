@@ -85,6 +85,13 @@ bool is_own_mirror_image(const benchmark_tools::Simulated_set& set, const Kernel
   return sum <= most * most * double(mirrored.points().size());
 }
 
+// Trials of one kind.
+struct Tally
+{
+  const char* what;
+  std::size_t trials = 0, registered = 0;
+};
+
 // The bound of a rate of `count` in `n`: of a Poisson number, at 95 %, by its normal approximation beyond none.
 double bound(std::size_t count, std::size_t n)
 {
@@ -106,10 +113,11 @@ int main(int argc, char** argv)
     po::variables_map values;
     if (!benchmark_tools::read_options(argc, argv, options, values)) return EXIT_SUCCESS;
     const Trial_scans scans = make_scans(scenes, first_seed);
+    std::array<Tally, 3> tallies = {{{"other scenes"}, {"other scenes in a mirror"}, {"the same scene in a mirror"}}};
     std::size_t n = 0, registered = 0, ambiguous = 0, right = 0;
     double largest = 0;
     // `mirrored`: the number of the scene whose mirrored view `b` is of, where `a` is of the same one.
-    const auto attempt = [&](const Scan& a, const Scan& b, const std::string& what,
+    const auto attempt = [&](const Scan& a, const Scan& b, const std::string& what, std::size_t kind,
                              std::optional<std::size_t> mirrored) {
       if (n + right == trials) return;
       const auto result = CR::register_scans<CGAL::Parallel_if_available_tag>(a, b);
@@ -120,12 +128,14 @@ int main(int argc, char** argv)
         return;
       }
       ++n;
+      ++tallies[kind].trials;
       largest = (std::max)(largest, result.confidence());
       ambiguous += result.status() == CR::AMBIGUOUS;
       constexpr std::size_t often = 1000;
       if (n % often == 0) std::cerr << n << " trials so far, " << registered << " registered\n";
       if (result.status() != CR::REGISTERED) return;
       ++registered;
+      ++tallies[kind].registered;
       std::cout << what << " is registered, confidence " << result.confidence() << std::endl;
     };
     // By distance in the list, so that the first trials are of all kinds.
@@ -133,9 +143,14 @@ int main(int argc, char** argv)
       for (std::size_t i = 0; i < scenes; ++i) {
         const std::size_t j = (i + d) % scenes;
         const std::string name = std::to_string(i) + " to " + std::to_string(j);
-        attempt(scans.plain[i], scans.mirrored[j], name + " in a mirror", i == j ? std::optional(i) : std::nullopt);
-        if (i < j) attempt(scans.plain[i], scans.plain[j], name, std::nullopt);
+        attempt(scans.plain[i], scans.mirrored[j], name + " in a mirror", i == j ? 2 : 1,
+                i == j ? std::optional(i) : std::nullopt);
+        if (i < j) attempt(scans.plain[i], scans.plain[j], name, 0, std::nullopt);
       }
+    for (const Tally& t : tallies)
+      if (t.trials > 0)
+        std::cout << t.what << ": " << t.registered << " of " << t.trials << " registered, at 95 % below "
+                  << bound(t.registered, t.trials) << '\n';
     std::cout << n << " trials, " << registered << " registered, " << ambiguous << " ambiguous, largest confidence "
               << largest << "; at 95 % the rate of false accepts is below " << bound(registered, n) << '\n';
     return registered == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

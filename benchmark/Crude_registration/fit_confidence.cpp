@@ -237,6 +237,7 @@ std::vector<Choice> choices_of(const Generation& generation, const Coefficients&
       if (choice.right < 0 && pair.truth && is_right(p.pose, *pair.truth, *pair.source))
         choice.right = int(choice.poses.size());
       choice.poses.push_back(p.evidence);
+      choice.poses.back().variety = judge.variety(p.pose); // by other coefficients another one may lead
     }
     if (!choice.poses.empty()) choices.push_back(choice);
   });
@@ -261,7 +262,7 @@ struct Law_of_shares
   using Logit = benchmark_tools::Conditional_logit<3, false>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.share = {e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, 0, e.lapse};
+    c.share = {e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, 0, 0, e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
@@ -292,17 +293,23 @@ Logit logit_of_any(const std::vector<Choice>& choices, const Coefficients& c, bo
 // The law of whether any of the poses is right.
 struct Law_of_any
 {
-  using Logit = benchmark_tools::Conditional_logit<5>;
+  using Logit = benchmark_tools::Conditional_logit<6>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.any = {e.coefficients[0], e.coefficients[1], e.coefficients[2], e.coefficients[3], e.coefficients[4], e.lapse};
+    c.any = {e.coefficients[0],
+             e.coefficients[1],
+             e.coefficients[2],
+             e.coefficients[3],
+             e.coefficients[4],
+             e.coefficients[5],
+             e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
     return logit_of_any<Logit>(choices, c, false, [](const CRI::Leading_pose& leading) {
       const CRI::Pose_evidence& e = leading.pose->evidence;
       Logit::Features f;
-      f << leading.root, e.residual, std::sqrt(e.violations), leading.lead, 1;
+      f << leading.root, e.residual, std::sqrt(e.violations), leading.lead, e.variety, 1;
       return f;
     });
   }
@@ -311,16 +318,19 @@ struct Law_of_any
 // The same as chance is between any two scans, whatever the other poses are.
 struct Law_of_usual_any
 {
-  using Logit = benchmark_tools::Conditional_logit<4>;
+  using Logit = benchmark_tools::Conditional_logit<5>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.usual_any = {e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, e.coefficients[3], e.lapse};
+    c.usual_any = {
+        e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, e.coefficients[3], e.coefficients[4], e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
     return logit_of_any<Logit>(choices, c, true, [](const CRI::Leading_pose& leading) {
       const CRI::Pose_evidence& e = leading.pose->evidence;
-      return Logit::Features(leading.root, e.residual, std::sqrt(e.violations), 1);
+      Logit::Features f;
+      f << leading.root, e.residual, std::sqrt(e.violations), e.variety, 1;
+      return f;
     });
   }
 };
@@ -449,9 +459,9 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
       << "\nnamespace CGAL {\nnamespace Crude_registration {\nnamespace internal {\n\n"
          "// A linear law: slope root(evidence) + residual (RMS of the probes that agree, in tolerances) + violations "
          "sqrt(probes in\n// free space a probe that agrees) + lead (of the root over the mean of the others) + "
-         "offset; "
-         "lapse: the share of answers\n// that obey no such law.\n"
-         "struct Evidence_law\n{\n  double slope, residual, violations, lead, offset, lapse;\n};\n\n"
+         "variety (logarithm\n// of the number of planes that agree) + offset; lapse: the share of answers that obey "
+         "no such law.\n"
+         "struct Evidence_law\n{\n  double slope, residual, violations, lead, variety, offset, lapse;\n};\n\n"
          "struct Evidence_coefficients\n{\n"
       << std::setprecision(5);
   const auto list = [&](const char* name, const double* values, std::size_t n) {
@@ -473,7 +483,7 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
   list("wrong_fit", c.wrong_fit, 12);
   const auto law = [&](const char* name, const CRI::Evidence_law& l) {
     out << "  Evidence_law " << name << " = {" << l.slope << ", " << l.residual << ", " << l.violations << ", "
-        << l.lead << ", " << l.offset << ", " << l.lapse << "};\n";
+        << l.lead << ", " << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
   };
   out << "  // The root is of n / (n + surfels) evidence a probe; n: of the scan with fewer.\n  double surfels = "
       << c.surfels << ";\n  // The logarithms of the weights of distinct poses, if one is right.\n";

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 using CR::internal::Agreement;
@@ -202,8 +203,8 @@ BOOST_AUTO_TEST_CASE(a_pose_in_doubt_is_refined_from_all_around_it)
   // By the residual alone; all poses are in doubt, or all are certain.
   const auto judge_by_residual = [&](double offset) {
     CR::internal::Evidence_coefficients coefficients;
-    coefficients.share = {0, -1, 0, 0, 0, 0};
-    coefficients.any = {0, -1, 0, 0, offset, 0};
+    coefficients.share = {0, -1, 0, 0, 0, 0, 0};
+    coefficients.any = {0, -1, 0, 0, 0, offset, 0};
     return Pose_judge(source, target, CR::internal::Execution::SEQUENTIAL, CR::internal::to_the_end(), coefficients);
   };
   CR::internal::Proposals proposals;
@@ -304,6 +305,61 @@ BOOST_AUTO_TEST_CASE(usual_evidence_is_that_of_its_outcomes)
   }
 }
 
+// Of n planes with as many probes on each, two probes lie in one plane as often as two of n kinds are of one kind.
+BOOST_AUTO_TEST_CASE(planes_are_told_apart_by_height_and_direction)
+{
+  using CR::internal::Outcome;
+  using CR::internal::Surfel;
+  using CR::internal::Vector_f;
+  const CR::internal::Probe_tolerance tolerance{0.1f, 0.3f, 1.f};
+  constexpr std::size_t each = 20;
+  const std::vector<std::pair<Vector_f, float>> planes = {{Vector_f(0, 0, 1), 0.f},  {Vector_f(0, 0, 1), 2.f},
+                                                          {Vector_f(0, 0, -1), 0.f}, {Vector_f(0, 1, 0), 0.f},
+                                                          {Vector_f(1, 0, 0), 0.f},  {Vector_f(0, 0.6f, 0.8f), 0.f}};
+  std::vector<Surfel> probes;
+  std::vector<std::uint8_t> outcomes;
+  for (std::size_t n = 1; n <= planes.size(); ++n) {
+    const auto& [normal, height] = planes[n - 1];
+    const Vector_f along = normal.unitOrthogonal(), across = normal.cross(along);
+    for (std::size_t k = 0; k < each; ++k) {
+      Surfel s{};
+      // In a spiral, up and down by what a probe of the plane may be off.
+      const float angle = 2.4f * float(k), radius = 0.3f * std::sqrt(float(k) + 1);
+      s.position = (height + (k % 2 == 0 ? 0.09f : -0.09f)) * normal +
+                   radius * (std::cos(angle) * along + std::sin(angle) * across);
+      s.normal = normal;
+      probes.push_back(s);
+      outcomes.push_back(std::uint8_t(1 + k % Outcome::fits));
+      // What does not agree is not looked at.
+      probes.push_back(s);
+      outcomes.push_back(k % 2 == 0 ? std::uint8_t(Outcome::UNKNOWN) : std::uint8_t(Outcome::DISAGREES));
+    }
+    const double in_one = double(n * each * (each - 1)) / 2, all = double(n * each * (n * each - 1)) / 2;
+    BOOST_TEST(CR::internal::probability_of_one_plane(probes, outcomes.data(), tolerance) == (in_one + 1) / (all + 1),
+               boost::test_tools::tolerance(1e-12));
+  }
+}
+
+// A box has six planes and its edges, and a statue more than that.
+BOOST_AUTO_TEST_CASE(a_statue_has_more_planes_than_a_box)
+{
+  Mesh box, statue;
+  CR::make_pedestal(box, 2, 0, 2);
+  CR::make_statue(statue, 48);
+  const Scan of_box(box), of_statue(statue);
+  const auto planes = [](const Scan& scan) {
+    return std::exp(judge_of(scan.reduced(), scan.reduced()).variety(Pose()));
+  };
+  // Two probes on the same of the faces lie in one plane. Those at the edges, whose normals are between, may not.
+  std::size_t flat = 0;
+  const auto probes = CR::internal::neighbouring_probes(of_box.reduced().fine, 1500);
+  for (const CR::internal::Surfel& s : probes) flat += s.normal.cwiseAbs().maxCoeff() > 0.999f;
+  const double share = double(flat) / double(probes.size());
+  BOOST_TEST(planes(of_box) > 5);
+  BOOST_TEST(planes(of_box) < 7 / (share * share));
+  BOOST_TEST(planes(of_statue) > 2 * planes(of_box));
+}
+
 using CR::internal::Judged_pose;
 using CR::internal::Pose_evidence;
 
@@ -321,7 +377,7 @@ std::vector<Judged_pose> some_poses(std::size_t n, const Pose_evidence& first, c
   return poses;
 }
 
-const Pose_evidence good{0.5, 0.6, 0.4, 0.2, 0.01, 10000}, poor{0.1, 0.15, 0.1, 0.3, 0.02, 10000};
+const Pose_evidence good{0.5, 0.6, 0.4, 0.2, 0.01, 10000, 2.5}, poor{0.1, 0.15, 0.1, 0.3, 0.02, 10000, 2.5};
 
 } // namespace
 
@@ -341,6 +397,7 @@ BOOST_AUTO_TEST_CASE(odds_rise_with_what_speaks_for_a_pose)
   BOOST_TEST(odds(&Evidence::residual, 0.1, 0) < here);
   BOOST_TEST(odds(&Evidence::violations, 0.1, 0) < here);
   BOOST_TEST(odds(&Evidence::surfels, -9900, 0) < here);
+  BOOST_TEST(odds(&Evidence::variety, 1, 0) > here);
   // The others as rivals, and as what tells of chance.
   BOOST_TEST(odds(&Evidence::tried, 0, 0.1) < here);
   BOOST_TEST(odds(&Evidence::fuller, 0, 0.1) < here);
@@ -368,8 +425,8 @@ BOOST_AUTO_TEST_CASE(probabilities_of_poses_and_of_none_add_up_to_one)
   for (const double odds : {-800., -3., 0., 5., 800.})
     for (const double second : {-800., 0., 3.})
       for (const bool is_usual : {false, true}) {
-        c.any = {0, 0, 0, 0, is_usual ? 77 : odds, 0.04};
-        c.usual_any = {0, 0, 0, 0, is_usual ? odds : 77, 0.04};
+        c.any = {0, 0, 0, 0, 0, is_usual ? 77 : odds, 0.04};
+        c.usual_any = {0, 0, 0, 0, 0, is_usual ? odds : 77, 0.04};
         std::vector<Judged_pose> poses(2);
         poses[1].log_weight = second;
         CR::internal::share_probability(poses, is_usual, c);

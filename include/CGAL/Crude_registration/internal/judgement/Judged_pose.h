@@ -38,6 +38,7 @@ struct Pose_evidence
   double residual = 0;   // root mean square of the probes that agree, in tolerances
   double violations = 0; // probes in free space, for each that agrees
   double surfels = 0;    // of the scan with fewer
+  double variety = 0;    // logarithm of the number of planes in which lies what agrees; of a leading pose alone
 };
 
 // A pose after refinement, looked at closely.

@@ -23,6 +23,7 @@
 #include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
 #include <CGAL/Crude_registration/internal/judgement/log_odds.h>
 #include <CGAL/Crude_registration/internal/judgement/probe_outcomes.h>
+#include <CGAL/Crude_registration/internal/judgement/variety.h>
 #include <CGAL/Crude_registration/internal/motion/refine_step.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
@@ -109,8 +110,26 @@ public:
         same->correspondence = p.correspondence;
       }
     }
-    share_probability(distinct, is_usual, m_coefficients);
+    share_probability(distinct, is_usual);
     return distinct;
+  }
+
+  // What share_probability() of log_odds.h says of distinct poses that were weighed.
+  void share_probability(std::vector<Judged_pose>& poses, bool is_usual) const
+  {
+    if (poses.empty()) return;
+    Judged_pose& first = poses[std::size_t(leading(poses) - poses.begin())];
+    first.evidence.variety = variety(first.pose);
+    internal::share_probability(poses, is_usual, m_coefficients);
+  }
+
+  // The logarithm of the number of planes in which lies what agrees under a pose, by the mean of both scans.
+  double variety(const Pose& pose) const
+  {
+    const std::vector<std::uint8_t> found = outcomes(pose);
+    return -std::log((probability_of_one_plane(m_source_probes, found.data(), m_tolerance) +
+                      probability_of_one_plane(m_target_probes, found.data() + m_source_probes.size(), m_tolerance)) /
+                     2);
   }
 
   // A pose as it is.

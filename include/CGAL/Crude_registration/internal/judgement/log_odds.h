@@ -33,12 +33,12 @@ inline double root_of_evidence(const Pose_evidence& evidence, double nats, const
   return std::sqrt(evidence.surfels / (evidence.surfels + c.surfels) * (std::max)(nats, 0.));
 }
 
-// The residual tells wrong poses, which fill the tolerance evenly, and what is in free space is there together, and
-// says more than its probes.
+// The residual tells wrong poses, which fill the tolerance evenly; what is in free space is there together, and says
+// more than its probes; and few planes fit in many places.
 inline double law_of_evidence(const Evidence_law& law, double root, double lead, const Pose_evidence& evidence)
 {
   return law.slope * root + law.residual * evidence.residual + law.violations * std::sqrt(evidence.violations) +
-         law.lead * lead + law.offset;
+         law.lead * lead + law.variety * evidence.variety + law.offset;
 }
 
 // The logarithm of how probable a pose is beside others, if one of them is right; `nats`: of the evidence.
@@ -47,8 +47,15 @@ inline double log_weight(const Pose_evidence& evidence, double nats, const Evide
   return law_of_evidence(c.share, root_of_evidence(evidence, nats, c), 0, evidence);
 }
 
-// Of distinct poses that with the greatest weight, the root of its evidence, and how far it leads the mean of the roots
-// of all others and of one that has none. `is_usual`: as chance is between any two scans.
+// Of distinct poses that with the greatest weight.
+inline std::vector<Judged_pose>::const_iterator leading(const std::vector<Judged_pose>& poses)
+{
+  return std::max_element(poses.begin(), poses.end(),
+                          [](const Judged_pose& a, const Judged_pose& b) { return a.log_weight < b.log_weight; });
+}
+
+// The same, the root of its evidence, and how far it leads the mean of the roots of all others and of one that has
+// none. `is_usual`: as chance is between any two scans.
 struct Leading_pose
 {
   const Judged_pose* pose;
@@ -58,9 +65,7 @@ struct Leading_pose
 // \pre There is a pose.
 inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c)
 {
-  const auto best = std::max_element(poses.begin(), poses.end(), [](const Judged_pose& a, const Judged_pose& b) {
-    return a.log_weight < b.log_weight;
-  });
+  const auto best = leading(poses);
   const auto root = [&](const Judged_pose& p) {
     return root_of_evidence(p.evidence, is_usual ? p.evidence.usual : p.evidence.fuller, c);
   };
@@ -76,13 +81,14 @@ inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_
 //   P(any) = (1 - l) / (1 + exp(-x)) + l / 2,  P_k = P(any) ((1 - m) w_k / sum_j w_j + m / n).
 // x is of the leading pose: all poses were refined until they fit as well as they can, so that its lead tells how much
 // comes by chance between these two scans. `is_usual`: as chance is between any two scans, whatever the others are.
+// \pre The variety of the leading pose is known.
 inline void share_probability(std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c = {})
 {
   if (poses.empty()) return;
-  const Leading_pose leading = leading_pose(poses, is_usual, c);
+  const Leading_pose first = leading_pose(poses, is_usual, c);
   const Evidence_law& law = is_usual ? c.usual_any : c.any;
-  const double log_odds = law_of_evidence(law, leading.root, leading.lead, leading.pose->evidence),
-               any = (1 - law.lapse) / (1 + std::exp(-log_odds)) + law.lapse / 2, greatest = leading.pose->log_weight;
+  const double log_odds = law_of_evidence(law, first.root, first.lead, first.pose->evidence),
+               any = (1 - law.lapse) / (1 + std::exp(-log_odds)) + law.lapse / 2, greatest = first.pose->log_weight;
   double sum = 0;
   for (const Judged_pose& p : poses) sum += std::exp(p.log_weight - greatest);
   for (Judged_pose& p : poses) {

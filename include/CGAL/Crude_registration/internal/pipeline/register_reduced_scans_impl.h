@@ -226,7 +226,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Redu
     std::vector<Judged_pose> all = {given};
     for (const Judged_pose& p : others)
       if (!judge.are_same(p.pose, given.pose)) all.push_back(p);
-    share_probability(all, is_usual);
+    judge.share_probability(all, is_usual);
     return all;
   };
   Judgement_outcome outcome;
