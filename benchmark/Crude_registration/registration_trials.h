@@ -39,6 +39,7 @@ struct Trial_options
   std::string pairs, scans, viewpoint;
   double minimum_overlap = 0;
   std::size_t generated = 0, every = 1;
+  std::vector<std::size_t> sensors; // of the generated ones; empty: all
   bool one_direction = false;
 };
 
@@ -52,6 +53,8 @@ inline void add_options(boost::program_options::options_description& description
                             "x,y,z: where scans without a grid were seen from, in their own frame");
   description.add_options()("generated", po::value(&options.generated),
                             "instead of those: so many pairs of simulated scans");
+  description.add_options()("sensors", po::value(&options.sensors)->multitoken(),
+                            "numbers of their sensors, from 0; default: all");
   description.add_options()("minimum-overlap", po::value(&options.minimum_overlap)->default_value(0),
                             "least overlap of the pairs that are taken");
   description.add_options()("one-direction", po::bool_switch(&options.one_direction),
@@ -155,7 +158,12 @@ private:
     const std::array<const char*, 5> kinds = {"statue", "pedestal", "plinth", "part", "room"};
     const std::array<double, 4> turns = {25, 40, 55, 70}; // degrees
     constexpr unsigned first_seed = 9001;
-    const std::vector<Sensor_model> sensors = all_sensors();
+    std::vector<Sensor_model> sensors = all_sensors();
+    if (!options.sensors.empty()) {
+      std::vector<Sensor_model> chosen;
+      for (const std::size_t i : options.sensors) chosen.push_back(sensors.at(i));
+      sensors = chosen;
+    }
     std::size_t number_of_pair = 0;
     for (std::size_t i = 0; m_pairs.size() < options.generated; ++i) {
       const std::string kind = kinds[i % kinds.size()], name = kind + std::to_string(i);

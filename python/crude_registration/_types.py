@@ -33,7 +33,7 @@ class RegistrationStatus(enum.Enum):
 class MotionStatus(enum.Enum):
     """What is to be said of a motion that somebody found.
 
-    RIGHT: it brings the scans together, to within a sampling distance.
+    RIGHT: it brings the scans together, to within one and a half sampling distances.
     REFINABLE: it does not, but what refinement makes of it does.
     WRONG: neither it nor what refinement makes of it can be told from chance.
     """

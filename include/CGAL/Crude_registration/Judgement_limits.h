@@ -34,6 +34,10 @@ struct Judgement_limits
   /// The probability from which on, or from one less it on, nothing more is looked for.
   static constexpr double certain = 0.99;
 
+  /// How far a motion that is given may be from what refinement makes of it to be called right, in sampling distances
+  /// of the coarser scan: halfway between one, which samples of a surface cannot tell, and two.
+  static constexpr double right_motion = 1.5;
+
   /// How near a surface is for the last refinement and the residual that it leaves, in sampling distances of the
   /// coarser scan.
   static constexpr double residual_reach = 2;

@@ -14,6 +14,7 @@
 
 // Says of a motion that somebody found whether it brings two scans together.
 
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
 #include <CGAL/Crude_registration/register_scans.h>
@@ -36,7 +37,7 @@ What is to be said of a motion that somebody found.
 */
 enum Motion_status
 {
-  /// it brings the scans together, to within a sampling distance.
+  /// it brings the scans together, to within `Judgement_limits::right_motion` sampling distances.
   RIGHT_MOTION,
   /// it does not, but what refinement makes of it does: see `Motion_judgement::displacement()`.
   REFINABLE_MOTION,
@@ -73,7 +74,7 @@ public:
   Motion_status status() const
   {
     if (m_refined.status() == NOT_REGISTERED) return WRONG_MOTION;
-    return m_displacement <= 1 ? RIGHT_MOTION : REFINABLE_MOTION;
+    return m_displacement <= Judgement_limits::right_motion ? RIGHT_MOTION : REFINABLE_MOTION;
   }
 
   /// The probability, in [0,1], that what refinement makes of the motion is right.
