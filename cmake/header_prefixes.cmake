@@ -1,7 +1,7 @@
 # For each header of the package, what it may be compiled after and is still as good as alone:
 # cmake -D include_dir=DIR -D output_dir=DIR -D prefixes=NAME|NAME... -P header_prefixes.cmake
 #
-# OUTPUT_DIR/NAME.h is a prefix: includes of other libraries, or of lower headers of the package, compiled once to
+# OUTPUT_DIR/NAME.h is a prefix: includes of lower headers of the package and of other libraries, compiled once to
 # OUTPUT_DIR/NAME.pch. A header that includes all of them, itself or by headers of the package, sees the same names with
 # the prefix before it as alone, as soon as its own includes are over; if this is so for each header, then none of them
 # takes a name from a header before it. A header that is in a prefix is not compiled after it. The first prefix, of the
@@ -9,7 +9,7 @@
 # OUTPUT_DIR/HEADER.options, which is empty if there is none.
 #
 # All is as the compiled core declares it: X.h does not include X_impl.h. The umbrella header, which is compiled with all
-# definitions, is compiled after other libraries only.
+# definitions, is compiled after nothing.
 cmake_minimum_required(VERSION 3.22)
 
 function(includes_of file result)
@@ -59,7 +59,7 @@ foreach(header IN LISTS headers)
   all_includes(${header} all)
   set(option "")
   foreach(prefix IN LISTS prefixes)
-    if(header IN_LIST own_${prefix} OR (own_${prefix} AND header STREQUAL "CGAL/Crude_registration.h"))
+    if(header IN_LIST own_${prefix} OR header STREQUAL "CGAL/Crude_registration.h")
       continue()
     endif()
     set(missing ${includes_${prefix}})

@@ -8,8 +8,8 @@ file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp
 # Every header is compiled alone, twice in a row, with all warnings as errors: by clang++ where it is there, two to three
 # times faster at this than g++, which meets all headers in the programs. One file carries the compile flags of all.
 # Each is taken as the compiled core declares it, so that what defines it (*_impl.h) has to include what it uses by itself;
-# the umbrella header is compiled with all definitions. What a header includes of other libraries is compiled once for
-# those that include the same: header_prefixes.cmake says why this is as good as alone.
+# the umbrella header is compiled with all definitions. What headers include of lower ones and of other libraries is
+# compiled once for those that include the same: header_prefixes.cmake says why this is as good as alone.
 find_program(CRUDE_REGISTRATION_HEADER_COMPILER NAMES clang++-14 clang++)
 mark_as_advanced(CRUDE_REGISTRATION_HEADER_COMPILER)
 if(CRUDE_REGISTRATION_HEADER_COMPILER)
@@ -31,18 +31,17 @@ file(GENERATE OUTPUT ${compile_flags} CONTENT "-std=c++17\n-frounding-math\n-I${
 $<$<BOOL:${includes}>:-isystem$<JOIN:${includes},\n-isystem>>
 $<$<BOOL:${definitions}>:-D$<JOIN:${definitions},\n-D>>\n")
 # From the one that includes most to the one that includes least. (Their templates are instantiated once, and not by each
-# file that is compiled after them.) `scans`, `reduced` and `geometry` are of the package's own lower rooms.
+# file that is compiled after them.)
 set(prefixes "")
 if(header_compiler MATCHES "clang")
-  set(prefixes scans meshes reduced kernel geometry parameters motions)
-  set(includes_of_motions CGAL/Aff_transformation_3.h CGAL/number_utils.h Eigen/Geometry)
-  set(includes_of_parameters CGAL/Named_function_parameters.h ${includes_of_motions})
-  set(includes_of_geometry CGAL/Crude_registration/internal/mesh/mesh_geometry.h ${includes_of_parameters})
+  set(prefixes scans reduced kernel geometry motions parameters)
+  set(own CGAL/Crude_registration)
+  set(includes_of_parameters ${own}/named_parameters.h)
+  set(includes_of_motions ${own}/internal/base/Rigid_motion.h)
+  set(includes_of_geometry ${own}/internal/mesh/mesh_geometry.h ${own}/named_parameters.h)
   set(includes_of_kernel CGAL/Exact_predicates_inexact_constructions_kernel.h ${includes_of_motions})
-  set(includes_of_reduced CGAL/Crude_registration/internal/reduction/Reduced_scan.h ${includes_of_parameters})
-  set(includes_of_meshes CGAL/boost/graph/helpers.h CGAL/boost/graph/named_params_helper.h
-      CGAL/Exact_predicates_inexact_constructions_kernel.h ${includes_of_parameters})
-  set(includes_of_scans CGAL/Crude_registration/Scan.h ${includes_of_meshes})
+  set(includes_of_reduced ${own}/internal/reduction/Reduced_scan.h)
+  set(includes_of_scans ${own}/Scan.h)
 endif()
 set(compiled_prefixes "")
 foreach(prefix IN LISTS prefixes)
@@ -50,16 +49,12 @@ foreach(prefix IN LISTS prefixes)
   foreach(include IN LISTS includes_of_${prefix})
     string(APPEND content "#include <${include}>\n")
   endforeach()
-  set(definition "")
-  if(content MATCHES "CGAL/Crude_registration/")
-    set(definition -DCGAL_CRUDE_REGISTRATION_COMPILED)
-  endif()
   set(source ${PROJECT_BINARY_DIR}/headers/${prefix}.h)
   file(CONFIGURE OUTPUT ${source} CONTENT "${content}")
   set(compiled ${PROJECT_BINARY_DIR}/headers/${prefix}.pch)
   add_custom_command(OUTPUT ${compiled}
-    COMMAND ${header_compiler} @${compile_flags} ${definition} -fpch-instantiate-templates -MMD -MT ${compiled}
-            -MF ${compiled}.d -x c++-header ${source} -o ${compiled}
+    COMMAND ${header_compiler} @${compile_flags} -DCGAL_CRUDE_REGISTRATION_COMPILED -fpch-instantiate-templates
+            -MMD -MT ${compiled} -MF ${compiled}.d -x c++-header ${source} -o ${compiled}
     DEPENDS ${source} ${compile_flags} DEPFILE ${compiled}.d VERBATIM COMMENT "What headers include: ${prefix}")
   list(APPEND compiled_prefixes ${compiled})
 endforeach()
