@@ -1,11 +1,15 @@
 # For each header of the package, what it may be compiled after and is still as good as alone:
 # cmake -D include_dir=DIR -D output_dir=DIR -D prefixes=NAME|NAME... -P header_prefixes.cmake
 #
-# OUTPUT_DIR/NAME.h is a prefix: includes of other libraries, compiled once to OUTPUT_DIR/NAME.pch. A header that includes
-# all of them, itself or by headers of the package, sees the same names with the prefix before it as alone, as soon as its
-# own includes are over; if this is so for each header, then none of them takes a name from a header before it. The first
-# prefix, of the largest to the smallest, whose includes are all among a header's is written as the compiler's option to
+# OUTPUT_DIR/NAME.h is a prefix: includes of lower headers of the package and of other libraries, compiled once to
+# OUTPUT_DIR/NAME.pch. A header that includes all of them, itself or by headers of the package, sees the same names with
+# the prefix before it as alone, as soon as its own includes are over; if this is so for each header, then none of them
+# takes a name from a header before it. A header that is in a prefix is not compiled after it. The first prefix, of the
+# largest to the smallest, whose includes are all among a header's is written as the compiler's option to
 # OUTPUT_DIR/HEADER.options, which is empty if there is none.
+#
+# All is as the compiled core declares it: X.h does not include X_impl.h. The umbrella header, which is compiled with all
+# definitions, is compiled after nothing.
 cmake_minimum_required(VERSION 3.22)
 
 function(includes_of file result)
@@ -13,7 +17,9 @@ function(includes_of file result)
   set(names "")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE ".*<(.*)>.*" "\\1" name "${line}")
-    list(APPEND names ${name})
+    if(file MATCHES "_impl\\.h$" OR NOT name MATCHES "_impl\\.h$")
+      list(APPEND names ${name})
+    endif()
   endforeach()
   set(${result} ${names} PARENT_SCOPE)
 endfunction()
@@ -40,12 +46,22 @@ endfunction()
 string(REPLACE "|" ";" prefixes "${prefixes}")
 foreach(prefix IN LISTS prefixes)
   includes_of(${output_dir}/${prefix}.h includes_${prefix})
+  set(own_${prefix} "") # the headers of the package in it
+  foreach(name IN LISTS includes_${prefix})
+    if(EXISTS ${include_dir}/${name})
+      all_includes(${name} all)
+      list(APPEND own_${prefix} ${name} ${all})
+    endif()
+  endforeach()
 endforeach()
 file(GLOB_RECURSE headers RELATIVE ${include_dir} ${include_dir}/*.h)
 foreach(header IN LISTS headers)
   all_includes(${header} all)
   set(option "")
   foreach(prefix IN LISTS prefixes)
+    if(header IN_LIST own_${prefix} OR header STREQUAL "CGAL/Crude_registration.h")
+      continue()
+    endif()
     set(missing ${includes_${prefix}})
     list(REMOVE_ITEM missing ${all})
     if(NOT missing)

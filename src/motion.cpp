@@ -13,3 +13,4 @@
 
 #include <CGAL/Crude_registration/internal/motion/least_squares_motion_impl.h>
 #include <CGAL/Crude_registration/internal/motion/refine_flat_motion_impl.h>
+#include <CGAL/Crude_registration/internal/motion/refine_similarity_impl.h>

@@ -11,4 +11,6 @@
 
 // The part pipeline of the compiled core.
 
+#include <CGAL/Crude_registration/internal/judgement/compare_points_impl.h>
+#include <CGAL/Crude_registration/internal/pipeline/Scaled_outcome_impl.h>
 #include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans_impl.h>

@@ -14,4 +14,5 @@
 #include <CGAL/Crude_registration/internal/reduction/Curvature_tensors_impl.h>
 #include <CGAL/Crude_registration/internal/reduction/measure_scan_impl.h>
 #include <CGAL/Crude_registration/internal/reduction/reduce_scan_impl.h>
+#include <CGAL/Crude_registration/internal/reduction/simplify_by_groups_impl.h>
 #include <CGAL/Crude_registration/internal/reduction/simplify_flat_scan_impl.h>

@@ -14,4 +14,5 @@
 #include <CGAL/Crude_registration/internal/sampling/estimate_flat_sensor_impl.h>
 #include <CGAL/Crude_registration/internal/sampling/flat_image_triangulation_impl.h>
 #include <CGAL/Crude_registration/internal/sampling/flat_point_triangulation_impl.h>
+#include <CGAL/Crude_registration/internal/sampling/join_points_impl.h>
 #include <CGAL/Crude_registration/internal/sampling/orient_points_impl.h>

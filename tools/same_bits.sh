@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Checks that the answers are the same bytes whatever the compiler and the number of threads: tools/same_bits.sh
 #
-# Builds crude_register in build-bits/ with g++ (Release and Debug) and clang++-14. Each program simulates scans, and
-# registers those of the first, a mesh, points, and real scans if CRUDE_REGISTRATION_DATA is their folder: with one
-# thread, and with eight. Prints a table, and exits with 1 where a byte differs; the files are in build-bits/answers/.
-# Takes some minutes, most of them for building.
+# Builds crude_register in build-bits/ with g++ (Release, and Debug from the headers alone) and clang++-14. Each program
+# simulates scans, and registers those of the first, a mesh, points, and real scans if CRUDE_REGISTRATION_DATA is their
+# folder: with one thread, and with eight. Prints a table, and exits with 1 where a byte differs; the files are in
+# build-bits/answers/. Takes some minutes, most of them for building.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ $# -eq 0 ] || { sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 1; }
@@ -12,14 +12,15 @@ build=${CRUDE_REGISTRATION_BUILD:-$PWD/build-bits}
 answers=$build/answers
 launcher=$(command -v ccache || true)
 
-build_program() { # NAME COMPILER BUILD_TYPE
+build_program() { # NAME COMPILER BUILD_TYPE [OPTION...]
   cmake -S . -B "$build/$1" -G Ninja -DCMAKE_CXX_COMPILER="$2" -DCMAKE_BUILD_TYPE="$3" \
     ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON} \
-    -DCRUDE_REGISTRATION_WITH_TESTS=OFF -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_DOC=OFF
+    -DCRUDE_REGISTRATION_WITH_TESTS=OFF -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_DOC=OFF \
+    "${@:4}"
   ninja -C "$build/$1" crude_register
 }
 build_program release g++ Release
-build_program debug g++ Debug
+build_program debug g++ Debug -DCRUDE_REGISTRATION_WITH_COMPILED=OFF # from the headers alone
 build_program clang clang++-14 Release
 run() { "$build/$1/bin/crude_register" "${@:2}"; } # NAME ARGUMENT...
 

@@ -16,9 +16,13 @@
 #include <CGAL/Crude_registration/simulation/make_statue.h>
 #include <CGAL/Crude_registration/simulation/simulate_range_image.h>
 
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/Dimension.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/centroid.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <boost/program_options.hpp>
 
@@ -38,11 +42,11 @@
 #include <vector>
 
 namespace CR = CGAL::Crude_registration;
-namespace CRI = CGAL::Crude_registration::internal;
 namespace po = boost::program_options;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Scan = CR::Scan<Kernel>;
+using Transformation = CGAL::Aff_transformation_3<Kernel>;
 using Clock = std::chrono::steady_clock;
 
 namespace {
@@ -86,7 +90,8 @@ Row measure(std::size_t bodies, std::size_t n, std::size_t samples)
   row.bodies = bodies;
   row.scans = n;
   std::vector<Scan> scans;
-  std::vector<CRI::Rigid_motion> poses;
+  std::vector<Transformation> poses;
+  std::vector<Kernel::Point_3> centres; // of the samples, in the frames of the scans
   for (std::size_t b = 0; b < bodies; ++b) {
     Mesh mesh;
     CR::make_statue(mesh, 96, CR::parameters::random_seed(unsigned(b + 1)));
@@ -95,7 +100,9 @@ Row measure(std::size_t bodies, std::size_t n, std::size_t samples)
     const std::size_t views = n / bodies + (b < n % bodies);
     for (std::size_t k = 0; k < views; ++k) {
       const auto simulated = view(scene, box, k, views, samples, 1000 * (b + 1) + k);
-      poses.push_back(CRI::to_rigid_motion(simulated.scene_from_scan));
+      poses.push_back(simulated.scene_from_scan);
+      const auto& points = simulated.image.points();
+      centres.push_back(CGAL::centroid(points.begin(), points.end(), CGAL::Dimension_tag<0>()));
       row.samples += simulated.image.points().size();
       const auto start = Clock::now();
       scans.emplace_back(simulated.image);
@@ -124,10 +131,13 @@ Row measure(std::size_t bodies, std::size_t n, std::size_t samples)
     ++sizes[c];
     if (!first[c]) first[c] = i;
     const std::size_t f = *first[c];
-    const CRI::Rigid_motion found = CRI::to_rigid_motion(result.pose(i)), truth = poses[f].inverse() * poses[i];
-    const double angle = CRI::Matrix(found.rotation - truth.rotation).norm() / std::sqrt(2.);
-    const CRI::Vector centre = scans[i].reduced().own_from_input.inverse()(CRI::Vector(CRI::Vector::Zero()));
-    const double distance = (found(centre) - truth(centre)).norm() / scans[i].spacing();
+    const Transformation found = result.pose(i), truth = poses[f].inverse() * poses[i];
+    double squares = 0;
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) squares += CGAL::square(found.m(j, k) - truth.m(j, k));
+    const double angle = std::sqrt(squares / 2);
+    const double distance =
+        std::sqrt(CGAL::squared_distance(found(centres[i]), truth(centres[i]))) / scans[i].spacing();
     constexpr double right_degrees = 2, right_distances = 5;
     const double degrees = angle * 180 / CGAL_PI;
     if (body(i) != body(f) || degrees > right_degrees || distance > right_distances) ++row.wrong;

@@ -11,8 +11,6 @@
 // Machined parts as a CAD system would export them, of few large triangles: prisms, steps, brackets, flanges and plates
 // with holes, with and without symmetry.
 
-#include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
-
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

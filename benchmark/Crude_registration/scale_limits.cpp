@@ -13,6 +13,7 @@
 #include "result_tools.h"
 #include "simulated_set.h"
 
+#include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
 #include <CGAL/Crude_registration/register_scans_with_scale.h>
 
 #include <boost/program_options.hpp>

@@ -17,8 +17,8 @@
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Polygon_mesh_processing/transform.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/boost/graph/generators.h>
 
@@ -39,7 +39,10 @@ inline const CR::Simulated_scene& room()
       Mesh box;
       CGAL::make_hexahedron(p(0, 0, 0), p(1, 0, 0), p(1, 1, 0), p(0, 1, 0), p(0, 1, 1), p(0, 0, 1), p(1, 0, 1),
                             p(1, 1, 1), box);
-      CGAL::Polygon_mesh_processing::triangulate_faces(box);
+      for (const auto f : std::vector<Mesh::Face_index>(box.faces().begin(), box.faces().end())) {
+        const auto h = box.halfedge(f);
+        CGAL::Euler::split_face(h, box.next(box.next(h)), box);
+      }
       CGAL::copy_face_graph(box, mesh);
     };
     add_box(0, 0, 0, 4, 3, 2.5);

@@ -14,15 +14,11 @@
 
 // What points of one scan meet where another one lies.
 
-#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/Scan.h>
-#include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
-#include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
+#include <CGAL/Crude_registration/internal/judgement/compare_points.h>
 
 #include <CGAL/Aff_transformation_3.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <limits>
@@ -72,27 +68,15 @@ std::vector<Compared_point<Kernel>> compare_points(const PointRange& points, con
                                                    const Scan<Kernel>& other,
                                                    const Aff_transformation_3<Kernel>& motion)
 {
-  const internal::Reduced_scan &from = scan.reduced(), &to = other.reduced();
-  const internal::Rigid_motion own = to.own_from_input * internal::to_rigid_motion(motion);
-  const internal::Matrix input_from_own = to.own_from_input.rotation.transpose();
-  const internal::Look look = internal::fine_look(from, to);
-  const internal::Nearest_surfel surface{to.fine.surfels, to.fine.field, double(to.fine.spacing)};
-  const double reach =
-      (std::max)(double(to.fine.spacing), Judgement_limits::residual_reach * (std::max)(from.spacing, to.spacing));
+  std::vector<internal::Vector> positions;
+  positions.reserve(static_cast<std::size_t>(std::distance(std::begin(points), std::end(points))));
+  for (const auto& point : points) positions.push_back(internal::to_vector(point));
   std::vector<Compared_point<Kernel>> met;
-  met.reserve(static_cast<std::size_t>(std::distance(std::begin(points), std::end(points))));
-  for (const auto& point : points) {
-    Compared_point<Kernel> m;
-    const internal::Vector p = own(internal::to_vector(point));
-    internal::Surface_point closest;
-    if (surface.closest(p, reach, closest)) {
-      m.distance = closest.normal.dot(p - closest.point);
-      const internal::Vector n = input_from_own * closest.normal.normalized();
-      m.normal = typename Kernel::Vector_3(n.x(), n.y(), n.z());
-    }
-    if (to.depths.is_known() && !(std::abs(m.distance) <= double(look.distance)))
-      m.is_in_free_space = to.depths.in_front(p.cast<float>()) > look.free_depth;
-    met.push_back(m);
+  met.reserve(positions.size());
+  for (const internal::Met_surface& surface :
+       internal::compare_points(positions, scan.reduced(), other.reduced(), internal::to_rigid_motion(motion))) {
+    const internal::Vector& n = surface.normal;
+    met.push_back({surface.distance, typename Kernel::Vector_3(n.x(), n.y(), n.z()), surface.is_in_free_space});
   }
   return met;
 }

@@ -16,8 +16,7 @@
 
 #include <CGAL/Crude_registration/Registration_result.h>
 #include <CGAL/Crude_registration/Scan.h>
-#include <CGAL/Crude_registration/internal/judgement/log_odds.h>
-#include <CGAL/Crude_registration/internal/motion/refine_similarity.h>
+#include <CGAL/Crude_registration/internal/pipeline/Scaled_outcome.h>
 #include <CGAL/Crude_registration/internal/reduction/scale_scan.h>
 #include <CGAL/Crude_registration/named_parameters.h>
 #include <CGAL/Crude_registration/register_scans.h>
@@ -26,7 +25,6 @@
 #include <CGAL/tags.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -71,46 +69,6 @@ struct Scaled_registration
 
 namespace internal {
 
-// How far the surface is from its centre, as a root mean square: surfels are spread evenly over it, whatever its
-// samples are.
-inline double radius_of(const Reduced_scan& scan)
-{
-  Vector mean = Vector::Zero();
-  for (const Surfel& s : scan.fine.surfels) mean += s.position.cast<double>() / double(scan.fine.surfels.size());
-  double squares = 0;
-  for (const Surfel& s : scan.fine.surfels) squares += (s.position.cast<double>() - mean).squaredNorm();
-  return std::sqrt(squares / double((std::max)(scan.fine.surfels.size(), std::size_t(1))));
-}
-
-// The factors that are tried, in turn: the ratios of units of length, 1 among them, that make the sizes agree about,
-// the nearest first; then those of a grid about the ratio of the sizes, from its middle on.
-inline std::vector<double> scales_to_try(double ratio)
-{
-  // At a scale that is off by 3.5 %, half of this step, 35 of 36 motions are found, at 5 % 32, at 7 % 28
-  // (benchmark/Crude_registration/scale_limits.cpp): there is hardly a gap. The sizes of two views of one body that
-  // overlap by 60 % differ by up to 15 %, and more the less they overlap.
-  constexpr double step = 1.07;
-  constexpr int most_steps = 4;
-  constexpr std::array<double, 5> units = {0.001, 0.01, 0.0254, 0.3048, 1}; // in metres
-  const double log_step = std::log(step), reach = (most_steps + 0.5) * log_step;
-  const auto distance = [&](double scale) { return std::abs(std::log(scale / ratio)); };
-  std::vector<double> scales;
-  for (const double a : units)
-    for (const double b : units)
-      if (distance(a / b) < reach) scales.push_back(a / b);
-  std::sort(scales.begin(), scales.end());
-  scales.erase(std::unique(scales.begin(), scales.end(), [](double a, double b) { return b < a * (1 + 1e-9); }),
-               scales.end());
-  std::stable_sort(scales.begin(), scales.end(), [&](double a, double b) { return distance(a) < distance(b); });
-  const std::size_t of_units = scales.size();
-  for (int i = 0; i <= 2 * most_steps; ++i) {
-    const double scale = ratio * std::pow(step, (i % 2 == 0 ? 1 : -1) * ((i + 1) / 2));
-    const auto is_near = [&](double unit) { return std::abs(std::log(scale / unit)) < log_step / 4; };
-    if (std::none_of(scales.begin(), scales.begin() + std::ptrdiff_t(of_units), is_near)) scales.push_back(scale);
-  }
-  return scales;
-}
-
 template <class Kernel>
 Scan<Kernel> scaled_scan(const Scan<Kernel>& scan, double scale)
 {
@@ -119,66 +77,12 @@ Scan<Kernel> scaled_scan(const Scan<Kernel>& scan, double scale)
   return Scan<Kernel>(scaled(scan.reduced(), scale), other_side);
 }
 
-// What the registration at one scale says, and what is made of its motion when the scale may move, too.
-struct Scaled_outcome : Registration_outcome
-{
-  double scale = 1;
-  Similarity_refinement refinement;
-};
-
-// How well the surfaces still agree when the source is larger, and when it is smaller, by so much that matches are
-// moved by two sampling distances, the worse one of the two: as planes do. (Edges and borders, of which there are few,
-// count for little then.)
-struct Agreement_at_other_scales
-{
-  double matches = 1; // over those at the best scale
-  double growth = 0;  // of the median of the distances
-
-  Agreement_at_other_scales() = default;
-  Agreement_at_other_scales(Similarity_refiner& refiner, const Rigid_motion& initial, const Similarity_refinement& best)
-  {
-    constexpr double displacement = 2, rounding = 0.02; // in sampling distances
-    const double s = best.sampling_distance, change = displacement * s / best.radius;
-    for (const double scale : {best.scale * (1 + change), best.scale / (1 + change)}) {
-      const Similarity_refinement other = refiner.at_scale(initial, scale);
-      matches = (std::min)(matches, double(other.matches) / double(best.matches));
-      growth = (std::max)(growth, (other.median - rounding * s) / (best.median + smallest * s));
-    }
-  }
-
-  bool is_as_good() const
-  {
-    // By benchmark/Crude_registration/scale_limits.cpp: none of 38 pairs whose scale is determined agrees so well
-    // elsewhere (three do where the median may grow by a quarter), and 47 of 48 corners, whose scale is free, do.
-    constexpr double fewest_matches = 0.9, largest_growth = 1.1;
-    return matches >= fewest_matches && growth <= largest_growth;
-  }
-
-private:
-  static constexpr double smallest = 1e-9;
-};
-
-// `motion`: of the source at its scale, in the frames of the inputs. Of the sides that a scan may have, the ones that
-// match are taken.
 template <class Kernel>
-Similarity_refinement refined_similarity(const Scan<Kernel>& source, const Scan<Kernel>& target,
-                                         const Rigid_motion& motion)
+std::vector<const Reduced_scan*> reduced_sides(const Scan<Kernel>& scan)
 {
-  Similarity_refinement best;
-  for (const Scan<Kernel>* s : {&source, source.other_side()})
-    for (const Scan<Kernel>* t : {&target, target.other_side()}) {
-      if (!s || !t) continue;
-      const Reduced_scan &a = s->reduced(), &b = t->reduced();
-      const Nearest_surfel surface{b.fine.surfels, b.fine.field, double(b.fine.spacing)};
-      const double sampling_distance = (std::max)(a.spacing, b.spacing);
-      Similarity_refiner refiner(a.fine.surfels, a.fine.probes, surface, sampling_distance);
-      const Rigid_motion initial = b.own_from_input * motion * a.own_from_input.inverse();
-      Similarity_refinement refined = refiner(initial);
-      if (refined.matches <= best.matches) continue;
-      refined.is_scale_free = Agreement_at_other_scales(refiner, initial, refined).is_as_good();
-      best = refined;
-    }
-  return best;
+  std::vector<const Reduced_scan*> sides = {&scan.reduced()};
+  if (scan.other_side()) sides.push_back(&scan.other_side()->reduced());
+  return sides;
 }
 
 // Registers the source at a scale, and at what becomes of that when the motion is refined with the scale, until that
@@ -205,49 +109,11 @@ Scaled_outcome registered_at(double scale, const Scan<Kernel>& source, const Sca
         round > 0 && next.verdict.status != REGISTERED && next.verdict.confidence < outcome.verdict.confidence;
     if (!is_worse) outcome = next;
     if (is_worse || next.verdict.status == NOT_REGISTERED || control.is_stopped()) break;
-    outcome.refinement = refined_similarity(in_scale, target, next.motion);
+    outcome.refinement = refined_similarity(reduced_sides(in_scale), reduced_sides(target), next.motion);
     if (outcome.refinement.matches == 0 || std::abs(outcome.refinement.scale - 1) < tolerance) break;
     scale *= outcome.refinement.scale;
   }
   return outcome;
-}
-
-// What is believed of the best of several scales, of which as many as `number` were to be tried: beforehand each was as
-// probable as another, so that the odds of one are that share of what they are alone; what was found at other scales
-// are its rivals.
-inline Verdict verdict_of(const std::vector<Scaled_outcome>& outcomes, const Scaled_outcome& best, std::size_t number)
-{
-  // Nearer scales are one. By benchmark/Crude_registration/scale_limits.cpp those that were found from different scales
-  // of one pair are within .001 of each other in 95 % of 155 cases, and the largest distance is that of a step of the
-  // grid, .034: the limit lies between.
-  constexpr double one = 0.02;
-  const auto odds = [](double p) {
-    constexpr double largest = 1 - 1e-12;
-    return (std::min)(p, largest) / (1 - (std::min)(p, largest));
-  };
-  double others = 0;
-  for (const Scaled_outcome& other : outcomes)
-    if (std::abs(std::log(other.scale / best.scale)) > one) others += odds(other.verdict.confidence);
-  const auto weighed = [&](double p) { return odds(p) / (double(number) + others + odds(p)); };
-  Verdict verdict = best.verdict;
-  verdict.confidence = weighed(verdict.confidence);
-  if (verdict.status == NOT_REGISTERED) return verdict;
-  const Similarity_refinement& r = best.refinement;
-  if (weighed(probability_of_any(best.poses)) < plausible) {
-    verdict.status = NOT_REGISTERED;
-    verdict.free_motions.clear();
-    verdict.reason = "no overlap found at any scale that cannot be by chance";
-  } else if (r.is_scale_free || r.deviation * r.radius > r.sampling_distance) {
-    verdict.status = AMBIGUOUS;
-    verdict.confidence = (std::min)(verdict.confidence, 0.5);
-    verdict.free_motions.push_back("a change of scale");
-    verdict.reason = "the overlap leaves the scale free";
-  } else if (verdict.status == REGISTERED && verdict.confidence < believed) {
-    verdict.status = AMBIGUOUS;
-    verdict.reason = others > double(number) ? "several distinct scales bring the scans together equally well"
-                                             : "the best motion and scale may be by chance";
-  }
-  return verdict;
 }
 
 // The scales one after the other, until an answer is certain; the most probable one counts.

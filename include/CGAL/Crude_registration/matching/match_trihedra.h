@@ -21,7 +21,6 @@
 #include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/reduction/Curvature_tensors.h>
 #include <CGAL/Crude_registration/internal/reduction/measure_scan.h>
-#include <CGAL/Crude_registration/internal/reduction/scan_frame.h>
 #include <CGAL/Crude_registration/matching/Spatial_trihedron.h>
 #include <CGAL/Crude_registration/matching/spatial_trihedra.h>
 #include <CGAL/Crude_registration/named_parameters.h>

@@ -14,31 +14,16 @@
 
 // A surface through all points, of a scan or of an assembled model, that depends on the points alone.
 
-#include <CGAL/Crude_registration/internal/sampling/advancing_front.h>
+#include <CGAL/Crude_registration/internal/base/compiled.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
-namespace internal {
-
-// What CGAL's front prefers where nobody tells it what: small circles.
-struct Smallest_circle_first
-{
-  template <class Front, class Cell_handle>
-  double operator()(const Front& front, Cell_handle& cell, int facet) const
-  {
-    return front.smallest_radius_delaunay_sphere(cell, facet);
-  }
-};
-
-} // namespace internal
-
 /*!
 \ingroup PkgCrudeRegistrationRef
 
@@ -53,17 +38,14 @@ surface is the outer one. Complexity: that of a Delaunay triangulation in space.
 
 \return the triangles, in ascending order, each from its least index on
 */
-inline std::vector<std::array<std::size_t, 3>>
-join_points(const std::vector<Exact_predicates_inexact_constructions_kernel::Point_3>& points)
-{
-  std::vector<std::array<std::size_t, 3>> faces =
-      internal::advancing_front(points, internal::Smallest_circle_first(), internal::to_the_end());
-  for (auto& f : faces) std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
+std::vector<std::array<std::size_t, 3>>
+join_points(const std::vector<Exact_predicates_inexact_constructions_kernel::Point_3>& points);
 
 } // namespace Crude_registration
 } // namespace CGAL
+
+#ifndef CGAL_CRUDE_REGISTRATION_COMPILED
+#include <CGAL/Crude_registration/internal/sampling/join_points_impl.h>
+#endif
 
 #endif // CGAL_CRUDE_REGISTRATION_SAMPLING_JOIN_POINTS_H

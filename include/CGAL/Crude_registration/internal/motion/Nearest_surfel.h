@@ -15,7 +15,7 @@
 // Surfels as a target of Point_to_plane: the plane of the nearest one.
 
 #include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>
-#include <CGAL/Crude_registration/internal/motion/point_to_plane.h>
+#include <CGAL/Crude_registration/internal/motion/Surface_point.h>
 
 #include <cmath>
 #include <cstddef>

@@ -19,6 +19,7 @@
 #include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
 #include <CGAL/Crude_registration/internal/motion/Normal_equations.h>
 #include <CGAL/Crude_registration/internal/motion/Refinement.h>
+#include <CGAL/Crude_registration/internal/motion/Surface_point.h>
 #include <CGAL/Crude_registration/internal/motion/twist.h>
 
 #include <Eigen/Geometry>
@@ -32,16 +33,6 @@
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
-
-// What a target answers to the question for its point closest to a query. A target of refine() is any object with
-//   bool closest(const Vector& query, double reach, Surface_point& answer) const
-// which returns false where nothing is within reach; it is asked by several threads at once under Parallel_tag.
-struct Surface_point
-{
-  Vector point;
-  Vector normal; // unit; zero where the surface has none
-  bool is_on_border;
-};
 
 // Robust point-to-plane registration.
 template <class Target>

@@ -21,6 +21,7 @@
 #include <CGAL/Crude_registration/internal/judgement/conclude.h>
 #include <CGAL/Crude_registration/internal/judgement/free_motions.h>
 #include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
+#include <CGAL/Crude_registration/internal/motion/point_to_plane.h>
 #include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
 
 #include <algorithm>

@@ -16,6 +16,7 @@
 
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/reduction/Plane_quadric.h>
+#include <CGAL/Crude_registration/internal/reduction/Simplification_limits.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
@@ -199,13 +200,6 @@ struct Collapse_counter : Surface_mesh_simplification::Edge_collapse_visitor_bas
   std::size_t* vertices_left;
   Run_control* control;
   std::size_t edges = 0;
-};
-
-struct Simplification_limits
-{
-  double mean_squared_distance;   // the largest of a collapse
-  std::size_t number_of_vertices; // to stop at
-  Run_control* control = &to_the_end();
 };
 
 struct Simplification_stop
