@@ -124,30 +124,33 @@ public:
       for (int k = 0; k < 27; ++k) {
         Pose_of_view pose = {turn, m_centre +
                                        (Eigen::Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1) / 3).cwiseProduct(m_size)};
-        for (int i = 0; i < 15; ++i) step(few, pose);
+        for (double scale = 0.2 * m_size.maxCoeff(); scale > tolerance; scale *= 0.75) step(few, scale, pose);
         std::size_t near = 0;
         for (const Eigen::Vector3d& p : few) {
           const Eigen::Vector3d q = pose(p);
           const Nearest& n = in_field(q);
           near += std::abs(n.normal.dot(q - n.point)) < 2 * tolerance;
         }
-        if (near > 48) ends.push_back({double(near), pose});
+        const Pose_of_view whole = {pose.rotation, pose.translation - pose.rotation * centroid};
+        if (near > 48 && !is_right(whole, truth, centroid)) ends.push_back({double(near), pose});
       }
     std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.near > b.near; });
     if (ends.size() > 400) ends.resize(400);
     for (const End& end : ends) {
       Pose_of_view pose = {end.pose.rotation, end.pose.translation - end.pose.rotation * centroid};
-      if (is_right(pose, truth, centroid)) continue;
       if (share(points, normals, pose, 3 * tolerance).first < 0.8) continue;
       std::vector<Eigen::Vector3d> many;
       for (std::size_t i = 0; i < points.size(); i += points.size() / 500 + 1) many.push_back(points[i] - centroid);
       Pose_of_view refined = end.pose;
-      for (int i = 0; i < 20; ++i) exact_step(many, refined);
-      pose = {refined.rotation, refined.translation - refined.rotation * centroid};
-      if (is_right(pose, truth, centroid)) continue;
-      const auto [all, facing] = share(points, normals, pose, tolerance);
-      result.share = (std::max)(result.share, all);
-      result.share_with_normals = (std::max)(result.share_with_normals, facing);
+      for (int i = 0; i < 20; ++i) exact_step(many, tolerance, refined);
+      // A start may be better than its end, where it is not nearness that draws.
+      for (const Pose_of_view& p : {end.pose, refined}) {
+        pose = {p.rotation, p.translation - p.rotation * centroid};
+        if (is_right(pose, truth, centroid)) continue;
+        const auto [all, facing] = share(points, normals, pose, tolerance);
+        result.share = (std::max)(result.share, all);
+        result.share_with_normals = (std::max)(result.share_with_normals, facing);
+      }
     }
     return result;
   }
@@ -180,9 +183,10 @@ private:
     return m_field[index(cell(q[0]), cell(q[1]), cell(q[2]))];
   }
 
-  // Gauss and Newton, point to plane.
+  // Gauss and Newton, point to plane, with Cauchy's weights: the few points of a rival that have no counterpart would
+  // draw it away from those that have one.
   template <class Lookup>
-  static void step(const std::vector<Eigen::Vector3d>& points, Pose_of_view& pose, const Lookup& lookup)
+  static void step(const std::vector<Eigen::Vector3d>& points, double scale, Pose_of_view& pose, const Lookup& lookup)
   {
     Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Identity() * 1e-6;
     Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
@@ -191,8 +195,9 @@ private:
       const Nearest n = lookup(q);
       Eigen::Matrix<double, 6, 1> row;
       row << turned.cross(n.normal), n.normal;
-      a.noalias() += row * row.transpose();
-      b -= n.normal.dot(q - n.point) * row;
+      const double weight = 1 / (1 + (q - n.point).squaredNorm() / (scale * scale));
+      a.noalias() += weight * row * row.transpose();
+      b -= weight * n.normal.dot(q - n.point) * row;
     }
     const Eigen::Matrix<double, 6, 1> x = a.llt().solve(b);
     const Eigen::Vector3d w = x.head<3>();
@@ -201,14 +206,14 @@ private:
     pose.translation += x.tail<3>();
   }
 
-  void step(const std::vector<Eigen::Vector3d>& points, Pose_of_view& pose) const
+  void step(const std::vector<Eigen::Vector3d>& points, double scale, Pose_of_view& pose) const
   {
-    step(points, pose, [&](const Eigen::Vector3d& q) -> const Nearest& { return in_field(q); });
+    step(points, scale, pose, [&](const Eigen::Vector3d& q) -> const Nearest& { return in_field(q); });
   }
 
-  void exact_step(const std::vector<Eigen::Vector3d>& points, Pose_of_view& pose) const
+  void exact_step(const std::vector<Eigen::Vector3d>& points, double scale, Pose_of_view& pose) const
   {
-    step(points, pose, [&](const Eigen::Vector3d& q) { return nearest(q); });
+    step(points, scale, pose, [&](const Eigen::Vector3d& q) { return nearest(q); });
   }
 
   // Of the points near, and of the points near and facing the same way.

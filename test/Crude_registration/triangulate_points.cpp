@@ -232,6 +232,29 @@ BOOST_AUTO_TEST_CASE(without_a_sensor_what_is_apart_stays_apart)
   BOOST_TEST(longest_edge(mesh) < 0.3);
 }
 
+BOOST_AUTO_TEST_CASE(copies_of_points_change_nothing)
+{
+  const std::vector<Point> points = shuffled(sphere(500));
+  std::vector<Point> each; // as the corners of triangles are in an export: 12 times
+  for (const Point& p : points) each.insert(each.end(), 12, p);
+  std::vector<Point> all;
+  for (int i = 0; i < 12; ++i) all.insert(all.end(), points.begin(), points.end());
+  for (const bool has_sensor : {false, true}) {
+    const auto mesh_of = [&](const std::vector<Point>& some) {
+      return has_sensor ? triangulated(some, parameters::viewpoint(Point(0, 0, 9)))
+                        : triangulated(some, parameters::default_values());
+    };
+    const Mesh wanted = mesh_of(points);
+    BOOST_TEST(wanted.number_of_faces() > 100);
+    for (const std::vector<Point>& some : {each, all}) {
+      const Mesh mesh = mesh_of(some);
+      BOOST_TEST(mesh.number_of_vertices() == wanted.number_of_vertices());
+      BOOST_TEST(mesh.number_of_faces() == wanted.number_of_faces());
+      BOOST_TEST(area(mesh) == area(wanted), boost::test_tools::tolerance(1e-12));
+    }
+  }
+}
+
 // The share of the area that looks at a place.
 double looks_at(const Mesh& mesh, const Point& place)
 {

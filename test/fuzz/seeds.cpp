@@ -128,6 +128,21 @@ std::string npy_file(int dimensions)
   return file;
 }
 
+// Points, normals and colours by columns.
+std::string colored_npy_file()
+{
+  const std::string header = "{'descr': '<f4', 'fortran_order': True, 'shape': (3, 9), }\n";
+  std::string file = "\x93NUMPY\1" + std::string(1, '\0') + binary(std::uint16_t(header.size()), false) + header;
+  for (int column = 0; column < 9; ++column)
+    for (int row = 0; row < 3; ++row)
+      file += binary(column < 3   ? float(column * row + 1)
+                     : column < 5 ? 0.f
+                     : column < 6 ? 1.f
+                                  : float(100 * row + column),
+                     false);
+  return file;
+}
+
 std::string las_file(int minor)
 {
   std::string file(375, '\0');
@@ -256,14 +271,20 @@ void write_seeds(const std::filesystem::path& folder)
       {"2\n2\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 0 0 0.5\n1 0 1 0.5\n0 0 0 0\n2 0 1 "
        "1\n"},
       {"1 2 3\n-4 5.5 6\n0.1 0 -1e-3\n", "3\n1 2 3 7 8 9\n4 5 6\n7 8 9\n",
-       "Scan\n0 1 2 3 0 0 1\n1 4 5 6 0 1 0\n2 7 nan 9 0 0 0\n", "// X Y Z\n1,5 2,5 3\n4 5,5 6\n"},
+       "Scan\n0 1 2 3 0 0 1\n1 4 5 6 0 1 0\n2 7 nan 9 0 0 0\n", "// X Y Z\n1,5 2,5 3\n4 5,5 6\n",
+       "x y z nx ny nz red green blue\n1 2 3 0 0 1 255 0 10\n4 5 6 0 1 0 1 2 3\n",
+       "1 2 3 -7 255 0 10\n4 5 6 -8 1 2 3\n"},
       {"id,\"x\",y,z\n9,1,2,3\n9,-4,5.5,6\n", "1,5;2;3\n4;5;6\n",
-       "\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3\n0,0,0\n0,0,0\n"},
+       "\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3\n0,0,0\n0,0,0\n",
+       "x,y,z,r,g,b,intensity\n1,2,3,0.5,0.1,1,7\n4,5,6,0,0,0,1\n"},
       {"GOCAD TSURF 1\nHEADER {\nname: a\n}\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\nEND\n"}};
-  std::vector<std::vector<std::string>> others = {
-      pcd_files(),       {npy_file(2), npy_file(3)}, {las_file(2), las_file(4)},
-      {depth_image()},   {packed("1 2 3\n4 5 6\n")}, {gltf_file(true)},
-      {gltf_file(false)}};
+  std::vector<std::vector<std::string>> others = {pcd_files(),
+                                                  {npy_file(2), npy_file(3), colored_npy_file()},
+                                                  {las_file(2), las_file(4)},
+                                                  {depth_image()},
+                                                  {packed("1 2 3\n4 5 6\n")},
+                                                  {gltf_file(true)},
+                                                  {gltf_file(false)}};
   scans.insert(scans.end(), others.begin(), others.end());
   for (std::size_t i = 0; i < scans.size(); ++i)
     for (std::size_t k = 0; k < scans[i].size(); ++k)
