@@ -22,7 +22,7 @@
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 #include <CGAL/Crude_registration/internal/matching/Matched_pair.h>
-#include <CGAL/Crude_registration/internal/matching/Oriented_pair_parameters.h>
+#include <CGAL/Crude_registration/internal/matching/extents.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <algorithm>
@@ -37,6 +37,35 @@
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
+
+// One round of the search.
+struct Oriented_pair_round
+{
+  std::vector<double> scales; // lengths of the pairs, from 0, the least, to 1, the greatest; the longest first
+  int origins;                // vertices V of the source
+  int pairs;                  // vertices v1 for each of them and each scale
+  std::size_t looks;          // at most that many pairs (C, c1) of the target are looked at
+  int curvature_tolerance;    // in 1/128 of the inverse spacing, for scans without noise
+  std::size_t kept;           // distinct candidates that are proposed
+  std::size_t judged;         // those of them that are worth a close look
+};
+
+struct Oriented_pair_parameters
+{
+  double minimum_extent = 0, maximum_extent = default_maximum_extent; // bounds of the lengths, in shares of M
+  std::vector<Oriented_pair_round> rounds = {{{8. / 15}, 300, 5, 80000, 14, 32, 8},
+                                             {{8. / 15, 1. / 3}, 800, 5, 200000, 14, 60, 8},
+                                             {{5. / 6, 8. / 15, 1. / 3, 0.2}, 2000, 4, 1200000, 20, 300, 16}};
+  float source_half_width = 0.3f; // of the lengths, in spacings
+  float target_half_width = 0.7f;
+  float distance = 0.8f; // of a witness to the plane of its counterpart, in spacings
+  float minimal_cosine = 0.75f;
+  int witnesses = 16, witnesses_needed = 9;
+  float witness_reach = 0.22f; // of the witnesses from the middle of the pair, in shares of M
+
+  // The length of a scale, as a share of M.
+  float length(double scale) const { return float(minimum_extent + scale * (maximum_extent - minimum_extent)); }
+};
 
 // Proposes poses by pairs of oriented points: pairs (V, v1) of the source's surfels, with their normals and curvatures,
 // find pairs (C, c1) of the target's in an index (the sphere of section 6 of the paper, and the turn on the circle,
@@ -79,23 +108,27 @@ public:
     const Stage_timer score_timer(m_scores);
     m_scores.count += candidates.size();
     // More probes for fewer candidates: most are told to be wrong by the first few.
-    const std::size_t some = (std::max)(8 * round.kept, candidates.size() / 8);
-    narrow(candidates, 12, some, some, control);
+    narrow(candidates, 12, (std::max)(8 * round.kept, candidates.size() / 8), control);
     proposals.dropped = first_distinct(candidates, m_parameters.rounds.front().kept, m_extent);
-    const bool is_blind = !m_source.depths.is_known() && !m_target.depths.is_known();
-    const std::size_t further = is_blind ? round.further : 0;
-    narrow(candidates, 40, 4 * round.kept, 4 * (round.kept + further), control);
-    std::vector<Candidate> kept;
-    keep({candidates.begin(), candidates.begin() + std::ptrdiff_t((std::min)(candidates.size(), 4 * round.kept))},
-         round.kept, kept, control);
-    propose(kept, 0, round.judged, control, proposals);
-    if (further > 0) {
-      const std::size_t before = kept.size();
-      keep(std::move(candidates), further, kept, control);
-      propose(kept, before, round.further_judged, control, proposals);
+    narrow(candidates, 40, 4 * round.kept, control);
+    score(candidates, 100, 0, control);
+    std::vector<Pose> kept;
+    std::vector<Matched_pair> pairs;
+    for (const Candidate& c : candidates) {
+      if (kept.size() == round.kept) break;
+      if (std::any_of(kept.begin(), kept.end(), [&](const Pose& p) { return are_close(c.pose, p, m_spacing); }))
+        continue;
+      kept.push_back(c.pose);
+      pairs.push_back(c.pair);
+    }
+    // A pair fixes its motion to some degrees only; all that agrees under it tells more.
+    for (const Estimated_pose& p :
+         estimated_again(m_source, m_target, kept, round.judged, m_execution, control, proposals.tried)) {
+      proposals.poses.push_back(p.pose);
+      proposals.correspondences.push_back(correspondence(pairs[p.index], m_source.coarse, m_target.coarse));
     }
     proposals.are_estimated = true;
-    proposals.judged = proposals.poses.size();
+    proposals.judged = round.judged;
     return proposals;
   }
 
@@ -142,42 +175,13 @@ private:
     return std::find_if(m_indices.begin(), m_indices.end(), [&](const auto& i) { return i.first == scale; })->second;
   }
 
-  // Adds the best candidates to those kept that are none of them, at most that many.
-  void keep(std::vector<Candidate> candidates, std::size_t most, std::vector<Candidate>& kept,
-            Run_control& control) const
+  // Leaves the best, by the score of that many probes: others for each candidate, since the candidates near the right
+  // pose are many, and any few probes may all lie outside of the overlap.
+  void narrow(std::vector<Candidate>& candidates, std::size_t probes, std::size_t left, Run_control& control) const
   {
-    score(candidates, 100, 0, control);
-    most += kept.size();
-    for (const Candidate& c : candidates) {
-      if (kept.size() == most) break;
-      if (std::none_of(kept.begin(), kept.end(),
-                       [&](const Candidate& k) { return are_close(c.pose, k.pose, m_spacing); }))
-        kept.push_back(c);
-    }
-  }
-
-  // Adds the best of the candidates from the given one on, at most that many. A pair fixes its motion to some degrees
-  // only; all that agrees under it tells more.
-  void propose(const std::vector<Candidate>& kept, std::size_t from, std::size_t judged, Run_control& control,
-               Proposals& proposals) const
-  {
-    std::vector<Pose> poses;
-    for (std::size_t i = from; i < kept.size(); ++i) poses.push_back(kept[i].pose);
-    for (const Estimated_pose& p :
-         estimated_again(m_source, m_target, poses, judged, m_execution, control, proposals.tried)) {
-      proposals.poses.push_back(p.pose);
-      proposals.correspondences.push_back(correspondence(kept[from + p.index].pair, m_source.coarse, m_target.coarse));
-    }
-  }
-
-  // Leaves the best, if there are more than `enough`, by the score of that many probes: others for each candidate,
-  // since the candidates near the right pose are many, and any few probes may all lie outside of the overlap.
-  void narrow(std::vector<Candidate>& candidates, std::size_t probes, std::size_t enough, std::size_t left,
-              Run_control& control) const
-  {
-    if (candidates.size() <= enough) return;
+    if (candidates.size() <= left) return;
     score(candidates, probes, probes, control);
-    if (candidates.size() > left) candidates.resize(left);
+    candidates.resize(left);
   }
 
   // Scores the candidates by that many probes of either scan, from `stride` further on for each candidate; the best
