@@ -3,6 +3,7 @@
 
 #include "generated_surfaces.h"
 
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
 #include <CGAL/Crude_registration/internal/simulation/Statue.h>
 
@@ -549,4 +550,49 @@ BOOST_AUTO_TEST_CASE(dust_takes_larger_cells)
     dust.faces.push_back({k, k + 1, k + 2});
   }
   check_finite(reduce_scan(dust, no_sensor));
+}
+
+// A slope so steep that its samples are no surface ends lines of sight as well as any other.
+BOOST_AUTO_TEST_CASE(what_is_no_surface_was_seen_all_the_same)
+{
+  Flat_mesh mesh;
+  std::vector<Vector> seen;
+  constexpr int columns = 80, rows = 40, half = columns / 2;
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) {
+      seen.push_back(Vector(c, r, c < half ? 0 : -20. * (c - half)));
+      if (c < half) mesh.points.push_back(seen.back());
+    }
+  for (int r = 0; r + 1 < rows; ++r)
+    for (int c = 0; c + 1 < half; ++c) {
+      const std::int32_t a = r * half + c;
+      mesh.faces.push_back({a, a + 1, a + half + 1});
+      mesh.faces.push_back({a, a + half + 1, a + half});
+    }
+  const Flat_sensor sensor = orthographic(Vector(0, 0, -1));
+  const Reduced_scan of_surface = reduce_scan(mesh, sensor),
+                     of_all = reduce_scan(mesh, sensor, {}, to_the_end(), &seen);
+  BOOST_TEST_REQUIRE((of_surface.depths.is_known() && of_all.depths.is_known()));
+  const auto in_front = [](const Reduced_scan& scan, const Vector& p) {
+    return scan.depths.in_front(scan.own_from_input(p).cast<float>());
+  };
+  const Counter_random random(29);
+  std::size_t over_slope = 0;
+  for (std::uint64_t k = 0; k < 2000; ++k) {
+    const Vector p(random.uniform(3 * k) * (columns - 1), random.uniform(3 * k + 1) * (rows - 1),
+                   600 * random.uniform(3 * k + 2) - 500);
+    // No more than is behind all samples around it, in the columns on either side.
+    double highest = -1e9;
+    for (const Vector& q : seen)
+      if (std::abs(q.x() - p.x()) <= 1 && std::abs(q.y() - p.y()) <= 1) highest = (std::max)(highest, q.z());
+    BOOST_TEST(double(in_front(of_all, p)) < p.z() - highest + 1e-3);
+    // The same where the surface is; the slope is known besides.
+    if (p.x() < half - 8) BOOST_TEST(in_front(of_all, p) == in_front(of_surface, p));
+    if (p.x() > half + 8) BOOST_TEST(!(in_front(of_surface, p) > 0));
+    if (p.x() > half + 8 && p.x() < columns - 8 && p.y() > 6 && p.y() < rows - 6 && p.z() > highest + 150) {
+      ++over_slope;
+      BOOST_TEST(in_front(of_all, p) > 0);
+    }
+  }
+  BOOST_TEST(over_slope > 100u);
 }

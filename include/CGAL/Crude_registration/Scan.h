@@ -383,7 +383,7 @@ private:
     const auto start = std::chrono::steady_clock::now();
     control.check();
     internal::check_scan_size(mesh.points, name);
-    m_reduced = internal::reduce_scan(mesh, sensor, {}, control);
+    m_reduced = internal::reduce_scan(mesh, sensor, {}, control, image != nullptr ? &image->points : nullptr);
     if (m_reduced.number_of_samples == 0)
       throw std::invalid_argument(name + " has no surface: there is no face of positive area that the sensor can see");
     internal::prepare_for(generator, 0, mesh, sensor, image, np, name, control, m_reduced);

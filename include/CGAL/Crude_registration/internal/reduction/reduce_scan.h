@@ -34,11 +34,12 @@ struct Reduction_parameters
   double fewest_coarse_surfels = 500;
 };
 
-// Reduces a scan. The sensor is in the frame of the mesh.
+// Reduces a scan. The sensor is in the frame of the mesh; `seen`: all that it saw, in the same frame, or null for what
+// is in the mesh. At a grazing angle samples are too far apart for a surface, and were seen all the same.
 // A scan of fewer than four surfels cannot be registered; what it holds is prepared all the same.
 // \throws Run_control::Stopped
 Reduced_scan reduce_scan(const Flat_mesh& mesh, const Flat_sensor& sensor, const Reduction_parameters& parameters = {},
-                         Run_control& control = to_the_end());
+                         Run_control& control = to_the_end(), const std::vector<Vector>* seen = nullptr);
 
 // The same of samples that no mesh joins.
 Reduced_scan reduce_scan(const Oriented_points& points, const Flat_sensor& sensor,

@@ -49,10 +49,11 @@ inline double cell_of_surfels(double area, double number)
   return std::sqrt(1.5 * area / number);
 }
 
-// All that follows the samples of a surface of the given area. `scan` has its frame and its extent.
+// All that follows the samples of a surface of the given area. `scan` has its frame and its extent; `seen`: all that
+// the sensor saw, or null for the samples.
 inline void reduce_samples(const Oriented_samples& samples, double area, const Flat_sensor& sensor,
-                           const Vector& direction, const Reduction_parameters& parameters, Run_control& control,
-                           Reduced_scan& scan)
+                           const Vector& direction, const std::vector<Vector>* seen,
+                           const Reduction_parameters& parameters, Run_control& control, Reduced_scan& scan)
 {
   const Rigid_motion& own = scan.own_from_input;
   // What is not a surface but dust takes larger cells, until the surfels can be numbered.
@@ -97,13 +98,19 @@ inline void reduce_samples(const Oriented_samples& samples, double area, const F
   const Matrix_f rotation = own.rotation.cast<float>();
   // The mean normal of a surface is not where it was seen from: free space along it would speak against right poses.
   if (sensor.kind != Flat_sensor::UNKNOWN) {
+    std::vector<Vector_f> ends; // of the lines of sight
+    if (seen != nullptr) {
+      ends.reserve(seen->size());
+      for (const Vector& p : *seen) ends.push_back(own(p).cast<float>());
+    }
     scan.depths = Depth_buffer(sensor.kind, own(sensor.vector).cast<float>(), rotation * direction.cast<float>(),
-                               samples.points, cell, control);
+                               seen != nullptr ? ends : samples.points, cell, control);
   }
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, const Flat_sensor& sensor,
-                                                        const Reduction_parameters& parameters, Run_control& control)
+                                                        const Reduction_parameters& parameters, Run_control& control,
+                                                        const std::vector<Vector>* seen)
 {
   Reduced_scan scan;
   const Vector direction = mean_direction(sensor, mesh.points);
@@ -116,7 +123,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, c
   if (!(area > 0)) return scan;
   const double distance = 0.5 * cell_of_surfels(area, parameters.fine_surfels);
   const Oriented_samples samples = samples_of_faces(mesh, areas, scan.own_from_input, sensor, distance, control);
-  reduce_samples(samples, area, sensor, direction, parameters, control, scan);
+  reduce_samples(samples, area, sensor, direction, seen, parameters, control, scan);
   return scan;
 }
 
@@ -129,8 +136,8 @@ CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Oriented_points& p
   const Vector size = extent_in_frame(points, scan.own_from_input, control);
   scan.extent = size.sum() / 3;
   if (!(points.area > 0)) return scan;
-  reduce_samples(samples_of_points(points, scan.own_from_input, control), points.area, sensor, direction, parameters,
-                 control, scan);
+  reduce_samples(samples_of_points(points, scan.own_from_input, control), points.area, sensor, direction, nullptr,
+                 parameters, control, scan);
   return scan;
 }
 
