@@ -597,6 +597,9 @@ BOOST_AUTO_TEST_CASE(formats_that_are_not_built_in)
   CHECK_ERROR("m.vtp", "<VTKFile/>", ": ", "VTK");
 #endif
   CHECK_ERROR("m.ts", "nonsense", ": ", "GOCAD");
+  CHECK_ERROR("m.ts", "GOCAD TSURF 1\nTFACE\nVRTX 0 1 2 3\nVRTX 1 2 zero 3\nEND\n", ":4: ", "vertex");
+  CHECK_ERROR("m.ts", "GOCAD TSURF 1\nTFACE\nVRTX 0 1 2 3\nTRGL 0 0\nEND\n", ":4: ", "triangle");
+  CHECK_ERROR("m.ts", "GOCAD TSURF 1\nTFACE\nVRTX 0 1 2 3\n", ": ", "END");
   CHECK_ERROR("m.ts", "GOCAD TSURF 1\nTFACE\nVRTX 0 1 2 3\nTRGL 0 1 2\nEND\n", ": ", "does not exist");
   BOOST_CHECK_THROW(CR::read_scan<Kernel>((folder().path() / "missing").string()), CR::IO_error);
 }

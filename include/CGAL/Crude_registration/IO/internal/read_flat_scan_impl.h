@@ -251,8 +251,15 @@ inline Flat_scan_file read_gocad(const std::string& data, const std::string& fil
   std::pair<std::string, std::string> name_and_color;
   std::vector<Cartesian::Point_3> points;
   std::vector<std::vector<std::size_t>> polygons;
-  if (!CGAL::IO::read_GOCAD(in, name_and_color, points, polygons, CGAL::parameters::default_values()))
-    throw IO_error(file, "not a GOCAD file that CGAL can read");
+  if (!CGAL::IO::read_GOCAD(in, name_and_color, points, polygons, CGAL::parameters::default_values())) {
+    // CGAL's reader stops behind the line that it cannot read.
+    in.clear();
+    const auto read = std::ptrdiff_t(in.tellg());
+    if (read < std::ptrdiff_t(data.size()))
+      throw IO_error(file, std::size_t(std::count(data.begin(), data.begin() + read, '\n')),
+                     "not a vertex or a triangle of a GOCAD file");
+    throw IO_error(file, "not a GOCAD file, or cut short: it has no END");
+  }
   return to_scan(points, std::move(polygons), file);
 }
 
