@@ -15,6 +15,7 @@
 #include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -69,26 +70,46 @@ CR::internal::Proposals proposals_of(const std::vector<Pose>& poses)
 
 // The share of the probes of a scan, moved to the frame of a view, that are nearer to its sensor by `depth` than all
 // samples whose lines of sight pass within `reach` of them, and, where `surrounded` says so, all around: by all pairs.
-double share_before(const Reduced_scan& scan, const Rigid_motion& view_from_own, const View& view, double depth,
-                    double reach, bool surrounded)
+struct Range_of_depths
 {
+  double depth, reach;
+  bool surrounded;
+};
+
+// For two such ranges at once. A line of sight in the direction u passes beside p by sqrt((p p / (u p))^2 - p p), in
+// the plane through p that p is normal to.
+std::array<double, 2> shares_before(const Reduced_scan& scan, const Rigid_motion& view_from_own, const View& view,
+                                    const std::array<Range_of_depths, 2>& ranges)
+{
+  std::vector<Vector> directions;
+  for (const Point& q : view.image.points()) directions.push_back(to_vector(q).normalized());
   const std::size_t n = (std::min)(std::size_t(2500), scan.fine.probes.size());
-  std::size_t before = 0;
+  std::array<std::size_t, 2> before{};
   for (std::size_t i = 0; i < n; ++i) {
     const Vector p = view_from_own(scan.fine.surfels[std::size_t(scan.fine.probes[i])].position.cast<double>());
-    double least = (std::numeric_limits<double>::max)();
-    Vector sum = Vector::Zero();
-    int count = 0;
-    for (const Point& q : view.image.points()) {
-      const Vector v = to_vector(q), beside = v * (p.squaredNorm() / v.dot(p)) - p;
-      if (!(v.dot(p) > 0) || beside.norm() > reach) continue;
-      least = (std::min)(least, v.norm());
-      sum += beside;
-      ++count;
+    std::array<double, 2> least, least_cosine;
+    least.fill((std::numeric_limits<double>::max)());
+    const double square = p.squaredNorm();
+    for (std::size_t k = 0; k < 2; ++k)
+      least_cosine[k] = square / std::sqrt(square + ranges[k].reach * ranges[k].reach);
+    const double smallest = (std::min)(least_cosine[0], least_cosine[1]);
+    std::array<Vector, 2> sum = {Vector::Zero(), Vector::Zero()};
+    std::array<int, 2> count{};
+    for (std::size_t j = 0; j < directions.size(); ++j) {
+      const double along = directions[j].dot(p);
+      if (!(along >= smallest && along > 0)) continue;
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (along < least_cosine[k]) continue;
+        least[k] = (std::min)(least[k], to_vector(view.image.points()[j]).norm());
+        sum[k] += directions[j] * (square / along) - p;
+        ++count[k];
+      }
     }
-    before += count > 0 && (!surrounded || sum.norm() < 0.25 * reach * count) && p.norm() < least - depth;
+    for (std::size_t k = 0; k < 2; ++k)
+      before[k] += count[k] > 0 && (!ranges[k].surrounded || sum[k].norm() < 0.25 * ranges[k].reach * count[k]) &&
+                   p.norm() < least[k] - ranges[k].depth;
   }
-  return double(before) / double(n);
+  return {double(before[0]) / double(n), double(before[1]) / double(n)};
 }
 
 } // namespace
@@ -125,12 +146,11 @@ BOOST_AUTO_TEST_CASE(violations_are_what_lies_in_front_of_either_scan)
       motion.translation = centre - motion.rotation * centre + Vector(0, 0, shift);
       motion = motion * truth;
       const Agreement agreement = judge.assess(to_pose(own(motion)));
-      const auto expected = [&](double depth, double reach, bool surrounded) {
-        return share_before(source, motion * source.own_from_input.inverse(), b(), depth, reach, surrounded) +
-               share_before(target, motion.inverse() * target.own_from_input.inverse(), a(), depth, reach, surrounded);
-      };
-      const double most = expected(2.5 * spacing, 1.5 * spacing, false),
-                   least = expected(4 * spacing, 8 * spacing, true);
+      const std::array<Range_of_depths, 2> ranges = {
+          {{2.5 * spacing, 1.5 * spacing, false}, {4 * spacing, 8 * spacing, true}}};
+      const auto of_source = shares_before(source, motion * source.own_from_input.inverse(), b(), ranges),
+                 of_target = shares_before(target, motion.inverse() * target.own_from_input.inverse(), a(), ranges);
+      const double most = of_source[0] + of_target[0], least = of_source[1] + of_target[1];
       BOOST_TEST_CONTEXT("shift " << shift << ", angle " << angle)
       {
         BOOST_TEST_MESSAGE(least << " <= " << agreement.violations << " <= " << most);
