@@ -8,6 +8,10 @@
 # largest to the smallest, whose includes are all among a header's is written as the compiler's option to
 # OUTPUT_DIR/HEADER.options, which is empty if there is none.
 #
+# OUTPUT_DIR/HEADER.cpp is what is compiled: the header, twice in a row. For the same reason it may come after another
+# header that it includes: files of the same prefix are one file where each header includes the one before it. The file
+# has the name of the last; those of the others are empty.
+#
 # All is as the compiled core declares it: X.h does not include X_impl.h. The umbrella header, which is compiled with all
 # definitions, is compiled after nothing.
 cmake_minimum_required(VERSION 3.22)
@@ -54,21 +58,53 @@ foreach(prefix IN LISTS prefixes)
     endif()
   endforeach()
 endforeach()
+set(umbrella CGAL/Crude_registration.h)
 file(GLOB_RECURSE headers RELATIVE ${include_dir} ${include_dir}/*.h)
+list(REMOVE_ITEM headers CGAL/Crude_registration/all_headers.h) # all of what the umbrella header includes
+set(order "")
 foreach(header IN LISTS headers)
-  all_includes(${header} all)
-  set(option "")
+  all_includes(${header} all_of_${header})
+  set(prefix_of_${header} "")
   foreach(prefix IN LISTS prefixes)
-    if(header IN_LIST own_${prefix} OR header STREQUAL "CGAL/Crude_registration.h")
+    if(header IN_LIST own_${prefix} OR header STREQUAL umbrella)
       continue()
     endif()
     set(missing ${includes_${prefix}})
-    list(REMOVE_ITEM missing ${all})
+    list(REMOVE_ITEM missing ${all_of_${header}})
     if(NOT missing)
-      set(option "-include-pch ${output_dir}/${prefix}.pch\n")
+      set(prefix_of_${header} ${prefix})
       break()
     endif()
   endforeach()
-  string(MAKE_C_IDENTIFIER ${header} name)
-  file(CONFIGURE OUTPUT ${output_dir}/${name}.options CONTENT "${option}")
+  list(LENGTH all_of_${header} number)
+  list(APPEND order "${number} ${header}")
 endforeach()
+
+# From the header that includes most on, each with what it includes, that with what it includes...
+list(SORT order COMPARE NATURAL ORDER DESCENDING)
+list(TRANSFORM order REPLACE "^[0-9]+ " "")
+while(order)
+  list(POP_FRONT order last)
+  set(content "#include <${last}>\n#include <${last}>\n")
+  set(first ${last})
+  if(NOT last STREQUAL umbrella)
+    foreach(header IN LISTS order)
+      if(header IN_LIST all_of_${first} AND prefix_of_${header} STREQUAL "${prefix_of_${last}}" AND
+         NOT header STREQUAL umbrella)
+        string(PREPEND content "#include <${header}>\n#include <${header}>\n")
+        string(MAKE_C_IDENTIFIER ${header} name)
+        file(CONFIGURE OUTPUT ${output_dir}/${name}.options CONTENT "")
+        file(CONFIGURE OUTPUT ${output_dir}/${name}.cpp CONTENT "// compiled with ${last}\n")
+        list(REMOVE_ITEM order ${header})
+        set(first ${header})
+      endif()
+    endforeach()
+  endif()
+  set(option "")
+  if(prefix_of_${last})
+    set(option "-include-pch ${output_dir}/${prefix_of_${last}}.pch\n")
+  endif()
+  string(MAKE_C_IDENTIFIER ${last} name)
+  file(CONFIGURE OUTPUT ${output_dir}/${name}.options CONTENT "${option}")
+  file(CONFIGURE OUTPUT ${output_dir}/${name}.cpp CONTENT "${content}")
+endwhile()

@@ -8,10 +8,13 @@ file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp
 # Every header is compiled alone, twice in a row, with all warnings as errors: by clang++ where it is there, two to three
 # times faster at this than g++, which meets all headers in the programs. One file carries the compile flags of all.
 # Each is taken as the compiled core declares it, so that what defines it (*_impl.h) has to include what it uses by itself;
-# the umbrella header is compiled with all definitions. What headers include of lower ones and of other libraries is
-# compiled once for those that include the same: header_prefixes.cmake says why this is as good as alone.
+# the umbrella header is compiled with all definitions: by clang-tidy where it is there, which has to compile it anyway,
+# and says what the compiler says. What headers include of lower ones and of other libraries is
+# compiled once for those that include the same, and headers that include each other are one file: header_prefixes.cmake
+# says why this is as good as alone.
 find_program(CRUDE_REGISTRATION_HEADER_COMPILER NAMES clang++-14 clang++)
-mark_as_advanced(CRUDE_REGISTRATION_HEADER_COMPILER)
+find_program(CRUDE_REGISTRATION_CLANG_TIDY NAMES clang-tidy-14 clang-tidy)
+mark_as_advanced(CRUDE_REGISTRATION_HEADER_COMPILER CRUDE_REGISTRATION_CLANG_TIDY)
 if(CRUDE_REGISTRATION_HEADER_COMPILER)
   set(header_compiler ${CRUDE_REGISTRATION_HEADER_COMPILER})
 else()
@@ -59,6 +62,7 @@ foreach(prefix IN LISTS prefixes)
   list(APPEND compiled_prefixes ${compiled})
 endforeach()
 # Warnings that stand for checks of clang-tidy, which takes longer to say the same (see check_tidy_headers).
+set(warnings -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
 set(more_warnings "")
 if(prefixes)
   set(more_warnings -Wreserved-identifier -Wreserved-macro-identifier -Wzero-as-null-pointer-constant -Wdeprecated)
@@ -69,7 +73,7 @@ function(check_source stamps name source comment)
   cmake_parse_arguments(check "" "" "DEPENDS;OPTIONS" ${ARGN})
   set(stamp ${PROJECT_BINARY_DIR}/headers/${name}.stamp)
   add_custom_command(OUTPUT ${stamp}
-    COMMAND ${header_compiler} @${compile_flags} -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow ${more_warnings} -Werror
+    COMMAND ${header_compiler} @${compile_flags} -fsyntax-only ${warnings} ${more_warnings} -Werror
             ${check_OPTIONS} -MMD -MT ${stamp} -MF ${stamp}.d ${source}
     COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
     DEPENDS ${check_DEPENDS} DEPFILE ${stamp}.d COMMAND_EXPAND_LISTS VERBATIM COMMENT "${comment}")
@@ -88,12 +92,15 @@ set(prefix_options "")
 set(all_headers "")
 foreach(header IN LISTS headers)
   string(APPEND all_headers "#include <${header}>\n")
+  if(header STREQUAL "CGAL/Crude_registration.h" AND CRUDE_REGISTRATION_CLANG_TIDY AND CRUDE_REGISTRATION_WITH_TESTS)
+    set(all_headers "#include <${header}>\n${all_headers}")
+    continue() # the first in the file of clang-tidy
+  endif()
   if(header STREQUAL "CGAL/Crude_registration/all_headers.h")
-    continue() # all of what the umbrella header includes
+    continue() # all of what the umbrella header includes (header_prefixes.cmake leaves it out, too)
   endif()
   string(MAKE_C_IDENTIFIER ${header} name)
   set(source ${PROJECT_BINARY_DIR}/headers/${name}.cpp)
-  file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
   set(options "")
   if(NOT header STREQUAL "CGAL/Crude_registration.h")
     list(APPEND options -DCGAL_CRUDE_REGISTRATION_COMPILED)
@@ -101,10 +108,12 @@ foreach(header IN LISTS headers)
   set(prefix_option "")
   if(prefixes)
     set(prefix_option ${PROJECT_BINARY_DIR}/headers/${name}.options)
-    list(APPEND prefix_options ${prefix_option})
+    list(APPEND prefix_options ${prefix_option} ${source})
     list(APPEND options @${prefix_option})
+  else()
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n#include <${header}>\n")
   endif()
-  check_source(header_stamps ${name} ${source} "${header} alone" DEPENDS ${prefix_option} ${compiled_prefixes}
+  check_source(header_stamps ${name} ${source} "${header} alone" DEPENDS ${source} ${prefix_option} ${compiled_prefixes}
     OPTIONS ${options})
 endforeach()
 if(prefixes)
@@ -201,20 +210,25 @@ endif()
 
 # clang-tidy with the checks of .clang-tidy: all headers in one file, and the programs, one at a time, which show it the
 # templates with their arguments.
-find_program(CRUDE_REGISTRATION_CLANG_TIDY NAMES clang-tidy-14 clang-tidy)
-mark_as_advanced(CRUDE_REGISTRATION_CLANG_TIDY)
 if(CRUDE_REGISTRATION_CLANG_TIDY)
   set(tidy ${CRUDE_REGISTRATION_CLANG_TIDY} --quiet --warnings-as-errors=* --config-file=${PROJECT_SOURCE_DIR}/.clang-tidy
       -p ${PROJECT_BINARY_DIR}/headers)
   set(all_headers_source ${PROJECT_BINARY_DIR}/headers/all_headers.cpp)
   file(CONFIGURE OUTPUT ${all_headers_source} CONTENT "${all_headers}")
   if(CRUDE_REGISTRATION_WITH_TESTS)
-    # Without what the compiler says of each header: the first two by its more_warnings, the others, which are of what
-    # C++17 deprecates or has no more, by all it says.
-    set(tidy_headers ${tidy})
+    # Without what the compiler says of each header: what is reserved, null pointers, empty bodies and unused parameters,
+    # and the others, which are of what C++17 deprecates or has no more.
+    set(without "")
     if(more_warnings)
-      list(APPEND tidy_headers --checks=-bugprone-reserved-identifier,-modernize-use-nullptr,-modernize-replace-auto-ptr,-modernize-deprecated-ios-base-aliases,-modernize-use-uncaught-exceptions)
+      foreach(check bugprone-reserved-identifier bugprone-suspicious-semicolon misc-unused-parameters
+              modernize-deprecated-ios-base-aliases modernize-replace-auto-ptr modernize-use-noexcept modernize-use-nullptr
+              modernize-use-uncaught-exceptions)
+        string(APPEND without ",-${check}")
+      endforeach()
     endif()
+    set(tidy_headers ${tidy} --checks=clang-diagnostic-*${without})
+    list(TRANSFORM warnings PREPEND --extra-arg= OUTPUT_VARIABLE tidy_warnings)
+    list(APPEND tidy_headers ${tidy_warnings})
     add_test(NAME check_tidy_headers COMMAND ${tidy_headers} ${all_headers_source})
     set_tests_properties(check_tidy_headers PROPERTIES TIMEOUT 900 COST 1000)
   endif()

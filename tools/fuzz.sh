@@ -9,8 +9,10 @@ cd "$(dirname "$0")/.."
 case "${1:-}" in '' | *[!0-9]*) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 1 ;; esac
 build=${CRUDE_REGISTRATION_BUILD:-build-fuzz}
 launcher=$(command -v ccache || true)
+for_seconds=OFF
+[ "$1" -ge 60 ] || for_seconds=ON
 cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$(command -v clang++-14 || command -v clang++)" \
-  ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"} -DCRUDE_REGISTRATION_WITH_FUZZERS=ON \
+  ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"} -DCRUDE_REGISTRATION_WITH_FUZZERS=ON -DCRUDE_REGISTRATION_FUZZ_SECONDS=$for_seconds \
   -DCRUDE_REGISTRATION_WITH_TESTS=OFF -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_APPS=OFF \
   -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF -DCRUDE_REGISTRATION_WITH_DOC=OFF
 ninja -C "$build" fuzz_seeds fuzz_read_range_image fuzz_read_scan fuzz_register_meshes
