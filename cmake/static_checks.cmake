@@ -3,7 +3,8 @@
 
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/*.h)
 file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp
-     ${PROJECT_SOURCE_DIR}/examples/*.cpp ${PROJECT_SOURCE_DIR}/benchmark/*.cpp ${PROJECT_SOURCE_DIR}/test/*.cpp)
+     ${PROJECT_SOURCE_DIR}/examples/*.cpp ${PROJECT_SOURCE_DIR}/benchmark/*.cpp
+     ${PROJECT_SOURCE_DIR}/calibration/*.cpp ${PROJECT_SOURCE_DIR}/test/*.cpp)
 
 # Every header is compiled alone, twice in a row, with all warnings as errors: by clang++ where it is there, two to three
 # times faster at this than g++, which meets all headers in the programs. One file carries the compile flags of all.
@@ -133,7 +134,8 @@ if(TARGET benchmarks)
   foreach(name IN LISTS names)
     get_target_property(is_left_out ${name} EXCLUDE_FROM_ALL)
     if(is_left_out)
-      check_source(program_stamps benchmark_${name} ${PROJECT_SOURCE_DIR}/benchmark/Crude_registration/${name}.cpp
+      get_target_property(folder ${name} SOURCE_DIR)
+      check_source(program_stamps benchmark_${name} ${folder}/${name}.cpp
         "benchmark ${name}" ${after_most} -DCGAL_CRUDE_REGISTRATION_COMPILED)
     endif()
   endforeach()

@@ -14,7 +14,7 @@
 // as the view does that was not mirrored, the two do belong together, and it is no trial.
 
 #include "command_line.h"
-#include "simulated_set.h"
+#include "../../calibration/simulated_set.h"
 
 #include <CGAL/Crude_registration/register_scans.h>
 

@@ -9,6 +9,7 @@
 // as large as the faces, of small ones, of slivers, and as files have them that were never one surface. Counts the
 // answers by whether the view determines the pose, which is judged by the truth, see rival_motions.h.
 
+#include "../../calibration/package_random.h"
 #include "command_line.h"
 #include "machined_parts.h"
 #include "moved_scan.h"
@@ -190,7 +191,7 @@ Pose_of_view to_pose(const Transformation& motion)
 // From a direction drawn evenly from all.
 View view_of(const CR::Simulated_scene& scene, const CGAL::Bbox_3& box, std::uint64_t seed, const Options& options)
 {
-  const CR::internal::Counter_random random(seed);
+  const benchmark_tools::Package_random random(seed);
   Kernel::Vector_3 direction(random.normal(0), random.normal(1), random.normal(2));
   auto camera = CR::Range_camera<Kernel>::framing(box, direction, 200, true);
   const auto sketch = scene.range_image(camera);

@@ -13,7 +13,7 @@
 #include "csv_table.h"
 #include "moved_scan.h"
 #include "result_tools.h"
-#include "simulated_set.h"
+#include "../../calibration/simulated_set.h"
 #include "peers/Peer.h"
 
 #include <CGAL/Crude_registration/sampling/estimate_sensor.h>

@@ -10,7 +10,7 @@
 #define BOOST_TEST_MODULE conditional_logit
 #include <boost/test/unit_test.hpp>
 
-#include "../../benchmark/Crude_registration/conditional_logit.h"
+#include "../../calibration/conditional_logit.h"
 
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 

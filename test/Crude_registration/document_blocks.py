@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks README.md, CONTRIBUTING.md, doc/design.md, benchmark/README.md and the pages of the manual, as they stand there.
+"""Checks README.md, CONTRIBUTING.md, doc/design.md, the README.md of benchmark/ and calibration/, and the pages of the manual, as they stand there.
 
 document_blocks.py SOURCE_DIR names                     links, files, programs, options and public names that they mention
 document_blocks.py SOURCE_DIR project DIR               writes a project of all C++ blocks that are no program, into DIR
@@ -72,7 +72,7 @@ CALLS}
 
 def documents(root):
     yield from (root / name for name in ("README.md", "CONTRIBUTING.md", "doc/design.md", "doc/cgal_reviewers.md",
-                                          "benchmark/README.md"))
+                                          "benchmark/README.md", "calibration/README.md"))
     yield from sorted((root / "doc/Crude_registration").glob("*.txt"))
 
 

@@ -12,7 +12,7 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_ASSEMBLY_ASSEMBLY_COEFFICIENTS_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_ASSEMBLY_ASSEMBLY_COEFFICIENTS_H
 
-// How far what pairs say is to be believed: measured on generated scenes by benchmark/Crude_registration/fit_assembly.
+// How far what pairs say is to be believed: measured on generated scenes by calibration/fit_assembly.
 
 namespace CGAL {
 namespace Crude_registration {

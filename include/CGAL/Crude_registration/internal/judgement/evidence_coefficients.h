@@ -13,7 +13,7 @@
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H
 
 // What was measured of right and wrong poses of generated scans, by which evidence is weighed: written by
-// benchmark/Crude_registration/fit_confidence, and not by hand.
+// calibration/fit_confidence, and not by hand.
 // 60 settings, seeds 101 to 102, 5940 rounds of 1980 searches. In cross-validation by setting
 // the answers at the end of the searches have the Brier score 0.0418 and the expected calibration error 0.0186, and
 // of 675 that were believed 3 were wrong.

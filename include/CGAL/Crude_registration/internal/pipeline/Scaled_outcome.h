@@ -57,7 +57,7 @@ struct Agreement_at_other_scales
 
   bool is_as_good() const
   {
-    // By benchmark/Crude_registration/scale_limits.cpp: none of 38 pairs whose scale is determined agrees so well
+    // By calibration/scale_limits.cpp: none of 38 pairs whose scale is determined agrees so well
     // elsewhere (three do where the median may grow by a quarter), and 47 of 48 corners, whose scale is free, do.
     constexpr double fewest_matches = 0.9, largest_growth = 1.1;
     return matches >= fewest_matches && growth <= largest_growth;

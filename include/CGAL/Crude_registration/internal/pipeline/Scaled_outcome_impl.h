@@ -40,7 +40,7 @@ CGAL_CRUDE_REGISTRATION_INLINE double radius_of(const Reduced_scan& scan)
 CGAL_CRUDE_REGISTRATION_INLINE std::vector<double> scales_to_try(double ratio)
 {
   // At a scale that is off by 3.5 %, half of this step, 35 of 36 motions are found, at 5 % 32, at 7 % 28
-  // (benchmark/Crude_registration/scale_limits.cpp): there is hardly a gap. The sizes of two views of one body that
+  // (calibration/scale_limits.cpp): there is hardly a gap. The sizes of two views of one body that
   // overlap by 60 % differ by up to 15 %, and more the less they overlap.
   constexpr double step = 1.07;
   constexpr int most_steps = 4;
@@ -99,7 +99,7 @@ refined_similarity(const std::vector<const Reduced_scan*>& sides_of_source,
 CGAL_CRUDE_REGISTRATION_INLINE Verdict verdict_of(const std::vector<Scaled_outcome>& outcomes,
                                                   const Scaled_outcome& best, std::size_t number)
 {
-  // Nearer scales are one. By benchmark/Crude_registration/scale_limits.cpp those that were found from different scales
+  // Nearer scales are one. By calibration/scale_limits.cpp those that were found from different scales
   // of one pair are within .001 of each other in 95 % of 155 cases, and the largest distance is that of a step of the
   // grid, .034: the limit lies between.
   constexpr double one = 0.02;

@@ -8,7 +8,7 @@
 // The stages of a registration of two generated scans, as numbers that a program can draw: the manual's figures are
 // made of them (doc/Crude_registration/make_figures.py).
 
-#include "command_line.h"
+#include "../benchmark/Crude_registration/command_line.h"
 
 #include <CGAL/Crude_registration/IO/write_file.h>
 #include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>

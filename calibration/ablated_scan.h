@@ -5,8 +5,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_CRUDE_REGISTRATION_BENCHMARK_ABLATED_SCAN_H
-#define CGAL_CRUDE_REGISTRATION_BENCHMARK_ABLATED_SCAN_H
+#ifndef CGAL_CRUDE_REGISTRATION_CALIBRATION_ABLATED_SCAN_H
+#define CGAL_CRUDE_REGISTRATION_CALIBRATION_ABLATED_SCAN_H
 
 // Scans that lack a part of what is prepared of them, for the programs that ask what that part is worth.
 
@@ -87,4 +87,4 @@ void take_random_vertices(const Mesh& dense, CRI::Reduced_scan& scan)
 
 } // namespace benchmark_tools
 
-#endif // CGAL_CRUDE_REGISTRATION_BENCHMARK_ABLATED_SCAN_H
+#endif // CGAL_CRUDE_REGISTRATION_CALIBRATION_ABLATED_SCAN_H

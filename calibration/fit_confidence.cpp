@@ -16,7 +16,7 @@
 // With --check nothing is fitted: the coefficients of the header are judged, and what is returned says whether they are
 // calibrated.
 
-#include "command_line.h"
+#include "../benchmark/Crude_registration/command_line.h"
 #include "conditional_logit.h"
 #include "simulated_set.h"
 
@@ -454,7 +454,7 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
          "#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n"
          "#define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n\n"
          "// What was measured of right and wrong poses of generated scans, by which evidence is weighed: written by\n"
-         "// benchmark/Crude_registration/fit_confidence, and not by hand.\n"
+         "// calibration/fit_confidence, and not by hand.\n"
       << how
       << "\nnamespace CGAL {\nnamespace Crude_registration {\nnamespace internal {\n\n"
          "// A linear law: slope root(evidence) + residual (RMS of the probes that agree, in tolerances) + violations "

@@ -9,10 +9,10 @@
 // can switch off is taken from the scans when they are prepared, or from the judgement.
 
 #include "ablated_scan.h"
-#include "command_line.h"
-#include "cpu_time.h"
+#include "../benchmark/Crude_registration/command_line.h"
+#include "../benchmark/Crude_registration/cpu_time.h"
 #include "other_judgement.h"
-#include "registration_trials.h"
+#include "../benchmark/Crude_registration/registration_trials.h"
 
 #include <CGAL/Crude_registration/IO/triangulate_scan.h>
 #include <CGAL/Crude_registration/matching/Oriented_pair_candidates.h>

@@ -12,7 +12,7 @@
 // close loops, and how often a pair is wrong that is certain; then how many scans lie rightly and wrongly where each
 // scene is put together, with each coefficient multiplied by some factors: the range in which it does not matter.
 
-#include "command_line.h"
+#include "../benchmark/Crude_registration/command_line.h"
 #include "simulated_set.h"
 
 #include <CGAL/Crude_registration/assemble_scans.h>

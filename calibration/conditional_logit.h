@@ -5,8 +5,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_CRUDE_REGISTRATION_BENCHMARK_CONDITIONAL_LOGIT_H
-#define CGAL_CRUDE_REGISTRATION_BENCHMARK_CONDITIONAL_LOGIT_H
+#ifndef CGAL_CRUDE_REGISTRATION_CALIBRATION_CONDITIONAL_LOGIT_H
+#define CGAL_CRUDE_REGISTRATION_CALIBRATION_CONDITIONAL_LOGIT_H
 
 // Conditional logistic regression (McFadden 1974) that some choices may disobey: what makes one of several, or none,
 // right.
@@ -174,4 +174,4 @@ private:
 
 } // namespace benchmark_tools
 
-#endif // CGAL_CRUDE_REGISTRATION_BENCHMARK_CONDITIONAL_LOGIT_H
+#endif // CGAL_CRUDE_REGISTRATION_CALIBRATION_CONDITIONAL_LOGIT_H

@@ -5,12 +5,13 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_CRUDE_REGISTRATION_BENCHMARK_SIMULATED_SET_H
-#define CGAL_CRUDE_REGISTRATION_BENCHMARK_SIMULATED_SET_H
+#ifndef CGAL_CRUDE_REGISTRATION_CALIBRATION_SIMULATED_SET_H
+#define CGAL_CRUDE_REGISTRATION_CALIBRATION_SIMULATED_SET_H
 
 // Sets of simulated range scans with their true poses: bodies, bodies on a pedestal, machined parts and rooms.
 
-#include <CGAL/Crude_registration/internal/base/Counter_random.h>
+#include "package_random.h"
+
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 #include <CGAL/Crude_registration/Range_image.h>
 #include <CGAL/Crude_registration/Scan.h>
@@ -163,7 +164,7 @@ private:
 
   using Image = CGAL::Crude_registration::Range_image<Kernel>;
   using Camera = CGAL::Crude_registration::Range_camera<Kernel>;
-  using Random = CGAL::Crude_registration::internal::Counter_random;
+  using Random = Package_random;
 
   // With the noise of the sensor that is correlated, and without what it loses in patches.
   static Image spoiled(const Image& image, const Sensor_model& sensor, const Camera& camera)
@@ -315,4 +316,4 @@ mirrored(const CGAL::Crude_registration::Range_image<Simulated_set::Kernel>& ima
 
 } // namespace benchmark_tools
 
-#endif // CGAL_CRUDE_REGISTRATION_BENCHMARK_SIMULATED_SET_H
+#endif // CGAL_CRUDE_REGISTRATION_CALIBRATION_SIMULATED_SET_H

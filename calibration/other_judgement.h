@@ -5,8 +5,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_CRUDE_REGISTRATION_BENCHMARK_OTHER_JUDGEMENT_H
-#define CGAL_CRUDE_REGISTRATION_BENCHMARK_OTHER_JUDGEMENT_H
+#ifndef CGAL_CRUDE_REGISTRATION_CALIBRATION_OTHER_JUDGEMENT_H
+#define CGAL_CRUDE_REGISTRATION_CALIBRATION_OTHER_JUDGEMENT_H
 
 // The answer of a registration by the same candidates, judged otherwise.
 
@@ -120,4 +120,4 @@ Other_answer register_otherwise(const CRI::Reduced_scan& a, const CRI::Reduced_s
 
 } // namespace benchmark_tools
 
-#endif // CGAL_CRUDE_REGISTRATION_BENCHMARK_OTHER_JUDGEMENT_H
+#endif // CGAL_CRUDE_REGISTRATION_CALIBRATION_OTHER_JUDGEMENT_H

@@ -9,8 +9,8 @@
 // the scales are apart that are found from there, and how well scans agree at scales other than the best one, those
 // whose scale is determined and those whose scale is free.
 
-#include "command_line.h"
-#include "result_tools.h"
+#include "../benchmark/Crude_registration/command_line.h"
+#include "../benchmark/Crude_registration/result_tools.h"
 #include "simulated_set.h"
 
 #include <CGAL/Crude_registration/internal/motion/Nearest_surfel.h>
