@@ -237,7 +237,7 @@ void write_candidates(std::ostream& out, const CR::Scan<Kernel>& source, const C
     both.push_back(judge.weighed(pose));
   }
   if (both.size() == 1) throw std::runtime_error("there is no rival");
-  judge.share_probability(both, false);
+  judge.share_probability(both, CRI::Judged_by::PAIR);
   out << "{\"tried\":" << tried << ",\"distinct\":" << judge.candidates().size() << ",\"rival\":";
   write_judged(out, source, target, both[1], both[1].pose);
   out << ",\"proposed\":";

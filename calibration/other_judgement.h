@@ -49,7 +49,7 @@ inline std::vector<CRI::Judged_pose> distinct(const CRI::Pose_judge& judge, std:
   for (const CRI::Judged_pose& p : poses)
     if (std::none_of(result.begin(), result.end(), [&](const auto& d) { return judge.are_same(p.pose, d.pose); }))
       result.push_back(p);
-  judge.share_probability(result, false);
+  judge.share_probability(result, CRI::Judged_by::PAIR);
   return result;
 }
 

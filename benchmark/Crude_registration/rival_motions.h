@@ -155,6 +155,12 @@ public:
     return result;
   }
 
+  // Of the points, of which few stand for all, those that a motion brings as near as `tolerance`.
+  double share_near(const std::vector<Eigen::Vector3d>& points, const Pose_of_view& pose, double tolerance) const
+  {
+    return share(points, points, pose, tolerance).first;
+  }
+
   // By 5 degrees, and 5 % of the diagonal at the view's centroid, up to symmetry.
   bool is_right(const Pose_of_view& pose, const Pose_of_view& truth, const Eigen::Vector3d& centroid) const
   {

@@ -103,6 +103,7 @@ inline Content_hash hash_of(const Reduced_scan& scan)
   }
   hash.add(scan.spacing);
   hash.add(scan.extent);
+  hash.add(std::uint64_t(scan.is_body));
   for (const Surfel_level* level : {&scan.coarse, &scan.fine}) {
     hash.add(level->spacing);
     for (const Surfel& s : level->surfels) {
@@ -190,7 +191,7 @@ public:
 
 private:
   // To be raised with whatever changes the answer of a registration.
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr const char* head = "crude_registration pair";
   static constexpr std::size_t most_motions = 1000;
 

@@ -38,7 +38,7 @@ inline constexpr char scan_magic[] = "CRScan\r\n";
 inline constexpr std::size_t scan_magic_size = sizeof scan_magic - 1;
 
 // To be raised whenever what is written changes, or what is made of a scan: a scan of another version is of no use.
-inline constexpr std::uint32_t scan_version = 2;
+inline constexpr std::uint32_t scan_version = 3;
 
 inline std::uint32_t checksum(const char* data, std::size_t size)
 {
@@ -137,7 +137,7 @@ public:
   template <class Reduced>
   void scan(Reduced& s) const
   {
-    auto& [own_from_input, number_of_samples, spacing, extent, coarse, fine, depths, seconds, simplified] = s;
+    auto& [own_from_input, number_of_samples, spacing, extent, coarse, fine, depths, is_body, seconds, simplified] = s;
     (*this)(own_from_input.rotation);
     (*this)(own_from_input.translation);
     using Count = std::conditional_t<std::is_const<Reduced>::value, const std::uint64_t, std::uint64_t>;
@@ -149,6 +149,10 @@ public:
     level(coarse);
     level(fine);
     depths.for_each_part(depths, *this);
+    using Flag = std::conditional_t<std::is_const<Reduced>::value, const std::uint8_t, std::uint8_t>;
+    Flag body = is_body;
+    (*this)(body);
+    if constexpr (!std::is_const<Reduced>::value) is_body = body != 0;
   }
 
 private:

@@ -41,6 +41,15 @@ struct Pose_evidence
   double variety = 0;    // logarithm of the number of planes in which lies what agrees; of a leading pose alone
 };
 
+// By what poses are judged: by chance among the pair's own candidates, by chance between any two scans, or, of a view
+// and the whole surface of a body, by how much of the view is on that.
+enum class Judged_by
+{
+  PAIR,
+  USUAL,
+  BODY
+};
+
 // A pose after refinement, looked at closely.
 struct Judged_pose
 {

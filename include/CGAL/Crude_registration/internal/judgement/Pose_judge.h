@@ -22,6 +22,7 @@
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
 #include <CGAL/Crude_registration/internal/judgement/log_odds.h>
+#include <CGAL/Crude_registration/internal/judgement/on_body.h>
 #include <CGAL/Crude_registration/internal/judgement/probe_outcomes.h>
 #include <CGAL/Crude_registration/internal/judgement/variety.h>
 #include <CGAL/Crude_registration/internal/motion/refine_step.h>
@@ -92,13 +93,18 @@ public:
 
   std::size_t number_of_judged() const { return m_judged.size(); }
 
+  // Whether one is the whole surface of a body, and the other one is not, but may be a view of it.
+  bool has_body() const { return m_source.is_body != m_target.is_body; }
+
   // The distinct poses of all rounds, most probable first: of each the best, with the proposal that is nearest to it of
-  // those that have led there. Their probabilities and that of none of them add up to one. `is_usual`: as chance is
-  // between any two scans; where the scans fit each other in many ways, what is usual for this pair tells none from
-  // others.
-  std::vector<Judged_pose> distinct_poses(bool is_usual = false) const
+  // those that have led there. Their probabilities and that of none of them add up to one. `by`: where the scans fit
+  // each other in many ways, what is usual for this pair tells none from others. \pre has_body(), if they are judged by
+  // it
+  std::vector<Judged_pose> distinct_poses(Judged_by by = Judged_by::PAIR) const
   {
     std::vector<Judged_pose> sorted = m_judged, distinct;
+    if (by == Judged_by::BODY)
+      for_each_index(m_execution, sorted.size(), to_the_end(), [&](std::size_t i) { weigh_by_body(sorted[i]); });
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const Judged_pose& a, const Judged_pose& b) { return a.log_weight > b.log_weight; });
     for (const Judged_pose& p : sorted) {
@@ -110,17 +116,18 @@ public:
         same->correspondence = p.correspondence;
       }
     }
-    share_probability(distinct, is_usual);
+    share_probability(distinct, by);
     return distinct;
   }
 
   // What share_probability() of log_odds.h says of distinct poses that were weighed.
-  void share_probability(std::vector<Judged_pose>& poses, bool is_usual) const
+  void share_probability(std::vector<Judged_pose>& poses, Judged_by by) const
   {
     if (poses.empty()) return;
     Judged_pose& first = poses[std::size_t(leading(poses) - poses.begin())];
     first.evidence.variety = variety(first.pose);
-    internal::share_probability(poses, is_usual, m_coefficients);
+    internal::share_probability(poses, by != Judged_by::PAIR,
+                                by == Judged_by::BODY ? coefficients_of_body(m_coefficients) : m_coefficients);
   }
 
   // The logarithm of the number of planes in which lies what agrees under a pose, by the mean of both scans.
@@ -161,13 +168,22 @@ public:
 
   // A pose as it is, with what the evidence says of it.
   // \pre A round was added.
-  Judged_pose weighed(const Pose& pose) const
+  Judged_pose weighed(const Pose& pose, Judged_by by = Judged_by::PAIR) const
   {
     Judged_pose judged;
     judged.pose = pose;
     const std::vector<std::uint8_t> found = outcomes(pose);
     weigh(judged, found.data(), found.data() + m_source_probes.size());
+    if (by == Judged_by::BODY) weigh_by_body(judged);
     return judged;
+  }
+
+  // The same, of the weights that are compared along a motion: as chance is among all that is known of the pair.
+  double weight_along_motion(const Pose& pose, Judged_by by) const
+  {
+    const Judged_pose judged = weighed(pose, by);
+    if (by == Judged_by::BODY) return judged.log_weight;
+    return log_weight(judged.evidence, by == Judged_by::USUAL ? judged.evidence.usual : judged.evidence.fuller);
   }
 
   // The distinct candidates so far, those of them that were tried, and what the probes of either scan meet under them.
@@ -321,6 +337,16 @@ private:
     // Where a body fits itself in several ways, most that was tried is one of these, and what they have in common says
     // nothing for any of them.
     judged.log_weight = log_weight(judged.evidence, judged.evidence.tried, m_coefficients);
+  }
+
+  // What of a view is off the body; as the body's laws weigh it. \pre It was weighed, and has_body().
+  void weigh_by_body(Judged_pose& judged) const
+  {
+    const double off = m_target.is_body
+                           ? share_off_body(m_source_probes, m_target.fine, judged.pose, m_tolerance)
+                           : share_off_body(m_target_probes, m_source.fine, judged.pose.inverse(), m_tolerance);
+    judged.evidence = with_share_off(judged.evidence, off);
+    judged.log_weight = log_weight(judged.evidence, judged.evidence.usual, coefficients_of_body(m_coefficients));
   }
 
   const Reduced_scan& m_source;

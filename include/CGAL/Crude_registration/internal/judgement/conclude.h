@@ -28,14 +28,14 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// `poses`: distinct, most probable first. `is_of_many`: they are probable as chance is between any two scans only, as
-// the scans fit each other in many ways. \pre There is a pose.
-inline Verdict judge_poses(const std::vector<Judged_pose>& poses, bool is_of_many, const Free_motions& free)
+// `poses`: distinct, most probable first, judged by chance between any two scans only where the scans fit each other in
+// many ways. \pre There is a pose.
+inline Verdict judge_poses(const std::vector<Judged_pose>& poses, Judged_by by, const Free_motions& free)
 {
   Verdict verdict;
   const double any = probability_of_any(poses);
   verdict.confidence = poses.front().probability;
-  if (is_of_many) verdict.confidence = (std::min)(verdict.confidence, 0.5); // another one is as good
+  if (by == Judged_by::USUAL) verdict.confidence = (std::min)(verdict.confidence, 0.5); // another one is as good
   if (any < plausible) {
     verdict.reason = "no overlap found that cannot be by chance";
   } else if (!free.motions.empty()) {

@@ -90,8 +90,8 @@ inline Free_motions name_free_motions(const std::vector<Vector_6>& free, const V
 // The small motions (w, v) that the scans leave free, most uncertain first: those two spacings of the simplified
 // surface further along which, either way, the pose is so probable that were it a rival the first would not be
 // believed. What the information matrix says is uncertain is where to look; whether it is free, the evidence says.
-// `is_usual`: as chance is between any two scans.
-inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, bool is_usual, const Rigid_motion& motion,
+// `by`: what the pose was judged by.
+inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, Judged_by by, const Rigid_motion& motion,
                                                const Matrix_6& covariance, const Vector& centre, double radius,
                                                double spacing)
 {
@@ -104,10 +104,7 @@ inline std::vector<Vector_6> find_free_motions(const Pose_judge& judge, bool is_
   from_centre.bottomLeftCorner<3, 3>() = cross / radius;
   const Symmetric_eigen<Matrix_6> eigen = symmetric_eigen(to_centre * covariance * to_centre.transpose());
   const Pose here = to_pose(motion);
-  const auto weight_of = [&](const Pose& pose) {
-    const Pose_evidence evidence = judge.weighed(pose).evidence;
-    return log_weight(evidence, is_usual ? evidence.usual : evidence.fuller);
-  };
+  const auto weight_of = [&](const Pose& pose) { return judge.weight_along_motion(pose, by); };
   const double rival = weight_of(here) - std::log(believed / (1 - believed));
   // Whether a pose is still as far away as half of what it was moved by.
   const auto is_away = [&](const Pose& p) {

@@ -45,6 +45,7 @@ struct Registration_outcome
   double overlap = 0, residual = 0;
   bool source_has_free_space = false, target_has_free_space = false;
   Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
+  bool is_off_body = false; // one scan is the whole surface of a body, and too much of the other one is not on it
   Verdict verdict;
   std::vector<Stage_record> stages;
 
@@ -58,10 +59,11 @@ struct Registration_outcome
   }
 };
 
-// Is the one motion more probable than the other?
+// Is the one motion more probable than the other? What brings a view onto a body is, whatever else is found.
 inline bool is_better(const Registration_outcome& a, const Registration_outcome& b)
 {
   if (a.poses.empty() || b.poses.empty()) return !a.poses.empty() && b.poses.empty();
+  if (a.is_off_body != b.is_off_body) return b.is_off_body;
   return a.poses.front().log_odds > b.poses.front().log_odds;
 }
 
@@ -69,7 +71,7 @@ inline bool is_better(const Registration_outcome& a, const Registration_outcome&
 // the smaller scan. \pre `outcome` is the better one.
 inline void add_rival(const Registration_outcome& other, double extent, Registration_outcome& outcome)
 {
-  if (other.poses.empty() || outcome.poses.empty()) return;
+  if (other.poses.empty() || outcome.poses.empty() || other.is_off_body != outcome.is_off_body) return;
   const Rigid_motion motion = other.to_input(to_rigid_motion(other.poses.front().pose));
   const Rigid_motion own =
       outcome.target_frame * (outcome.is_swapped ? motion.inverse() : motion) * outcome.source_frame.inverse();

@@ -115,7 +115,7 @@ inline Refinement refined(const Reduced_scan& source, const Reduced_scan& target
 }
 
 // What the refined motion says, in the frames of the input, and what is to be believed of it.
-inline void conclude(const Reduced_scan& source, const Reduced_scan& target, const Pose_judge& judge, bool is_of_many,
+inline void conclude(const Reduced_scan& source, const Reduced_scan& target, const Pose_judge& judge, Judged_by by,
                      const Refinement& refinement, bool is_interrupted, Registration_outcome& outcome)
 {
   const Rigid_motion& own = refinement.motion;
@@ -139,17 +139,17 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   std::vector<Vector_6> free;
   // What is not to be believed at all has no free motions.
   if (probability_of_any(outcome.poses) >= plausible)
-    free = find_free_motions(judge, is_of_many, own, refinement.covariance, own.translation, radius,
+    free = find_free_motions(judge, by, own, refinement.covariance, own.translation, radius,
                              double(source.coarse.spacing));
   for (Vector_6& m : free) m = to_input * m;
   const Vector centre = outcome.target_frame.inverse()(own.translation);
   const Free_motions named = name_free_motions(free, outcome.is_swapped ? outcome.motion(centre) : centre, radius);
   if (is_interrupted) outcome.interrupt();
-  else outcome.verdict = judge_poses(outcome.poses, is_of_many, named);
+  else outcome.verdict = judge_poses(outcome.poses, by, named);
 }
 
-// What is the same whatever is judged: `poses(judge, is_usual)` gives the poses, the one that is concluded of first, by
-// one or the other kind of chance; `are_enough(judge)` ends the search.
+// What is the same whatever is judged: `poses(judge, by)` gives the poses, the one that is concluded of first;
+// `are_enough(judge)` ends the search.
 template <class Poses, class Predicate>
 Registration_outcome registration_of(const Reduced_scan& a, const Reduced_scan& b,
                                      const Candidate_factory& make_candidates, Execution execution,
@@ -173,17 +173,23 @@ Registration_outcome registration_of(const Reduced_scan& a, const Reduced_scan& 
   const std::unique_ptr<Candidate_source> candidates = make_candidates(source, target);
   Pose_judge judge(source, target, execution, control);
   propose_and_judge(*candidates, judge, judging, control, [&] { return are_enough(judge); });
-  outcome.poses = poses(judge, false);
+  outcome.poses = poses(judge, Judged_by::PAIR);
   if (outcome.poses.empty()) {
     if (control.is_stopped()) outcome.interrupt();
     else outcome.verdict.reason = "no overlap found: no motion brings any part of the scans together";
   } else {
-    bool is_of_many = false;
-    if (!control.is_stopped() && probability_of_any(outcome.poses) < plausible) {
-      const std::vector<Judged_pose> usual = poses(judge, true);
-      is_of_many = probability_of_any(usual) >= plausible;
-      if (is_of_many) outcome.poses = usual;
+    Judged_by by = Judged_by::PAIR;
+    const auto judge_again = [&](Judged_by other) {
+      std::vector<Judged_pose> again = poses(judge, other);
+      if (probability_of_any(again) < plausible) return;
+      outcome.poses = std::move(again);
+      by = other;
+    };
+    if (!control.is_stopped() && judge.has_body() && outcome.poses.front().probability < believed) {
+      judge_again(Judged_by::BODY);
+      outcome.is_off_body = by != Judged_by::BODY;
     }
+    if (!control.is_stopped() && probability_of_any(outcome.poses) < plausible) judge_again(Judged_by::USUAL);
     Refinement refinement;
     {
       const Stage_timer timer(refining);
@@ -191,7 +197,7 @@ Registration_outcome registration_of(const Reduced_scan& a, const Reduced_scan& 
       refining.count = refinement.iterations;
     }
     const Stage_timer timer(concluding);
-    conclude(source, target, judge, is_of_many, refinement, control.is_stopped(), outcome);
+    conclude(source, target, judge, by, refinement, control.is_stopped(), outcome);
     concluding.count = outcome.poses.size();
   }
   for (const Stage_record& s : candidates->stages()) outcome.stages.push_back(s);
@@ -205,7 +211,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const
 {
   return registration_of(
       a, b, make_candidates, execution, control,
-      [](const Pose_judge& judge, bool is_usual) { return judge.distinct_poses(is_usual); },
+      [](const Pose_judge& judge, Judged_by by) { return judge.distinct_poses(by); },
       [](const Pose_judge& judge) { return Pose_judge::is_certain(judge.distinct_poses()); });
 }
 
@@ -219,21 +225,21 @@ CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Redu
   const Rigid_motion own =
       target.own_from_input * (is_swapped ? motion.inverse() : motion) * source.own_from_input.inverse();
   // The given one takes the place of what the search found of it.
-  const auto poses = [&](const Pose_judge& judge, bool is_usual) {
-    std::vector<Judged_pose> others = judge.distinct_poses(is_usual);
+  const auto poses = [&](const Pose_judge& judge, Judged_by by) {
+    std::vector<Judged_pose> others = judge.distinct_poses(by);
     if (others.empty()) return others; // nothing is known of chance
-    Judged_pose given = judge.weighed(judge.refined(to_pose(own)));
+    Judged_pose given = judge.weighed(judge.refined(to_pose(own)), by);
     given.proposed = to_pose(own);
     std::vector<Judged_pose> all = {given};
     for (const Judged_pose& p : others)
       if (!judge.are_same(p.pose, given.pose)) all.push_back(p);
-    judge.share_probability(all, is_usual);
+    judge.share_probability(all, by);
     return all;
   };
   Judgement_outcome outcome;
   static_cast<Registration_outcome&>(outcome) =
       registration_of(a, b, make_candidates, execution, control, poses, [&](const Pose_judge& judge) {
-        const std::vector<Judged_pose> all = poses(judge, false);
+        const std::vector<Judged_pose> all = poses(judge, Judged_by::PAIR);
         return !all.empty() && (all.front().probability >= certain || all.front().probability <= 1 - certain);
       });
   if (outcome.poses.empty()) return outcome;

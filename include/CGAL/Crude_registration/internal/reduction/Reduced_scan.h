@@ -54,7 +54,8 @@ struct Reduced_scan
   Surfel_level coarse; // a few thousand surfels: search
   Surfel_level fine;   // at most some ten thousand: judgement
   Depth_buffer depths;
-  double seconds = 0;                                // that the reduction took
+  bool is_body = false; // the whole surface of one, and no sensor is known: see encloses_a_body()
+  double seconds = 0;   // that the reduction took
   std::shared_ptr<const Simplified_scan> simplified; // where the method of the paper was asked for
 };
 

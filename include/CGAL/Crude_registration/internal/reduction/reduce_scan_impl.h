@@ -15,6 +15,7 @@
 // The reduction of a scan, step by step.
 
 #include <CGAL/Crude_registration/internal/lookup/Depth_buffer.h>
+#include <CGAL/Crude_registration/internal/mesh/encloses_a_body.h>
 #include <CGAL/Crude_registration/internal/mesh/mesh_geometry.h>
 #include <CGAL/Crude_registration/internal/reduction/describe_surfels.h>
 #include <CGAL/Crude_registration/internal/reduction/group_samples.h>
@@ -122,6 +123,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, c
   const double area = std::accumulate(areas.begin(), areas.end(), 0.);
   if (!(area > 0)) return scan;
   const double distance = 0.5 * cell_of_surfels(area, parameters.fine_surfels);
+  scan.is_body = sensor.kind == Flat_sensor::UNKNOWN && encloses_a_body(mesh, scan.own_from_input.rotation, control);
   const Oriented_samples samples = samples_of_faces(mesh, areas, scan.own_from_input, sensor, distance, control);
   reduce_samples(samples, area, sensor, direction, seen, parameters, control, scan);
   return scan;

@@ -1,0 +1,85 @@
+// Copyright (c) 2026 The Crude_registration authors.
+// All rights reserved.
+//
+// This file is part of the CGAL package Crude_registration.
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Author(s)     : The Crude_registration authors
+
+#ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_ON_BODY_H
+#define CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_ON_BODY_H
+
+// What only the whole surface of a body can tell: all that was seen of the body has to lie on it.
+
+#include <CGAL/Crude_registration/internal/judgement/body_coefficients.h>
+#include <CGAL/Crude_registration/internal/judgement/log_odds.h>
+#include <CGAL/Crude_registration/internal/judgement/probe_outcomes.h>
+#include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace CGAL {
+namespace Crude_registration {
+namespace internal {
+
+// Whether a place is on the surface of a body to within `distance`. A surfel stands for what is around it to within
+// half a diagonal of the spacing, and a little more; which one is the nearest, the field does not tell exactly: those
+// of the voxels around are looked at, too.
+inline bool is_on(const Surfel_level& body, const Vector_f& place, float distance)
+{
+  constexpr float half_diagonal = 0.75f;
+  const auto is_near = [&](const Vector_f& at) {
+    const int i = body.field.nearest(at);
+    if (i < 0) return false;
+    const Surfel& s = body.surfels[std::size_t(i)];
+    const Vector_f d = place - s.position;
+    const float height = s.normal.dot(d), aside = (d - height * s.normal).norm(),
+                beyond = (std::max)(aside - half_diagonal * body.spacing, 0.f);
+    return height * height + beyond * beyond <= distance * distance;
+  };
+  if (is_near(place)) return true;
+  for (int k = 0; k < 27; ++k)
+    if (is_near(place + body.spacing * Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).cast<float>())) return true;
+  return false;
+}
+
+// The share of a view's probes that are not on the body under `pose`, body from view. The surfels of either may be off
+// by the tolerance. On which side the surface is does not matter: of points without a sensor, a part may be turned
+// over.
+template <class Probe_range>
+double share_off_body(const Probe_range& probes, const Surfel_level& body, const Pose& pose,
+                      const Probe_tolerance& tolerance)
+{
+  std::size_t off = 0;
+  for (const Surfel& s : probes) off += std::size_t(!is_on(body, pose(s.position), 2 * tolerance.distance));
+  return probes.size() > 0 ? double(off) / double(probes.size()) : 0;
+}
+
+// The evidence as the laws of a view and a body read it: what is off the body, as a share of the view's probes, is
+// added to what is in free space.
+inline Pose_evidence with_share_off(Pose_evidence evidence, double share_off)
+{
+  evidence.violations += share_off;
+  return evidence;
+}
+
+// The coefficients for a view and a body, as chance is between any two scans: as the pair's own candidates have it, it
+// explains away what all of these have in common, which are planes between machined parts. Poses share the probability
+// by the law of all scans, as what is off the body weighs there what is in free space does (fitted to views of bodies,
+// it was -25 for -24); whether one is right is told by a law of its own.
+inline Evidence_coefficients coefficients_of_body(Evidence_coefficients c)
+{
+  c.usual_any = Body_coefficients().any;
+  return c;
+}
+
+} // namespace internal
+} // namespace Crude_registration
+} // namespace CGAL
+
+#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_ON_BODY_H
