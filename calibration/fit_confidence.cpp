@@ -444,7 +444,7 @@ Calibration print_reliability(const std::vector<Answer>& answers)
   return result;
 }
 
-void write_header(std::ostream& out, const Coefficients& c, const std::string& how)
+void write_header(std::ostream& out, const Coefficients& c, const Calibration& calibration, const std::string& how)
 {
   out << "// Copyright (c) 2026 The Crude_registration authors.\n// All rights reserved.\n//\n"
          "// This file is part of the CGAL package Crude_registration.\n//\n// $"
@@ -491,6 +491,10 @@ void write_header(std::ostream& out, const Coefficients& c, const std::string& h
   out << "  // The log-odds that one of them is right, and the same as chance is between any two scans.\n";
   law("any", c.any);
   law("usual_any", c.usual_any);
+  out << std::setprecision(3)
+      << "  // By how much the probabilities are off: the expected calibration error, in cross-validation.\n"
+         "  double calibration_error = "
+      << calibration.error << ";\n";
   out << "};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
          "#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n";
 }
@@ -561,7 +565,7 @@ int main(int argc, char** argv)
           << std::setprecision(3) << calibration.brier << " and the expected calibration error " << calibration.error
           << ", and\n// of " << calibration.believed << " that were believed " << calibration.believed_and_wrong
           << " were wrong.\n";
-      CR::write_file(output, [&](std::ostream& out) { write_header(out, c, how.str()); });
+      CR::write_file(output, [&](std::ostream& out) { write_header(out, c, calibration, how.str()); });
     }
   } catch (const std::exception& e) {
     std::cerr << "fit_confidence: " << e.what() << '\n';

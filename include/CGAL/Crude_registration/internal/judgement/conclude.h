@@ -16,6 +16,7 @@
 
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
 #include <CGAL/Crude_registration/internal/judgement/Verdict.h>
+#include <CGAL/Crude_registration/internal/judgement/evidence_coefficients.h>
 #include <CGAL/Crude_registration/internal/judgement/free_motions.h>
 
 #include <algorithm>
@@ -28,6 +29,14 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
+// How probable it has to be that one of the poses is right. As chance is between any two scans, a plane that fits as
+// well as can be is as probable as not, to within the error of the probabilities: it is told, and so are its free
+// motions.
+inline double least_plausible(Judged_by by)
+{
+  return by == Judged_by::USUAL ? plausible - Evidence_coefficients().calibration_error : plausible;
+}
+
 // `poses`: distinct, most probable first, judged by chance between any two scans only where the scans fit each other in
 // many ways. \pre There is a pose.
 inline Verdict judge_poses(const std::vector<Judged_pose>& poses, Judged_by by, const Free_motions& free)
@@ -36,7 +45,7 @@ inline Verdict judge_poses(const std::vector<Judged_pose>& poses, Judged_by by, 
   const double any = probability_of_any(poses);
   verdict.confidence = poses.front().probability;
   if (by == Judged_by::USUAL) verdict.confidence = (std::min)(verdict.confidence, 0.5); // another one is as good
-  if (any < plausible) {
+  if (any < least_plausible(by)) {
     verdict.reason = "no overlap found that cannot be by chance";
   } else if (!free.motions.empty()) {
     verdict.status = AMBIGUOUS;

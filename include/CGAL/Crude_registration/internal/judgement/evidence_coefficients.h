@@ -51,6 +51,8 @@ struct Evidence_coefficients
   // The log-odds that one of them is right, and the same as chance is between any two scans.
   Evidence_law any = {7.2245, -8.9238, -21.634, 10.038, 1.5958, -7.5861, 0.0068905};
   Evidence_law usual_any = {5.8533, -10.175, -17.561, 0, 4.0051, -6.8223, 0.0058386};
+  // By how much the probabilities are off: the expected calibration error, in cross-validation.
+  double calibration_error = 0.0186;
 };
 
 } // namespace internal

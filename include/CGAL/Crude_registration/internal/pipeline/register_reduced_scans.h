@@ -44,8 +44,8 @@ struct Registration_outcome
   Agreement agreement;                     // of the refined motion
   double overlap = 0, residual = 0;
   bool source_has_free_space = false, target_has_free_space = false;
-  Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
   bool is_off_body = false; // one scan is the whole surface of a body, and too much of the other one is not on it
+  Matrix_6 covariance = Matrix_6::Zero(); // in the frames of the input
   Verdict verdict;
   std::vector<Stage_record> stages;
 

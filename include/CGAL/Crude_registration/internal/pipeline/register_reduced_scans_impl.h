@@ -138,7 +138,7 @@ inline void conclude(const Reduced_scan& source, const Reduced_scan& target, con
   const double radius = 0.25 * source.extent;
   std::vector<Vector_6> free;
   // What is not to be believed at all has no free motions.
-  if (probability_of_any(outcome.poses) >= plausible)
+  if (probability_of_any(outcome.poses) >= least_plausible(by))
     free = find_free_motions(judge, by, own, refinement.covariance, own.translation, radius,
                              double(source.coarse.spacing));
   for (Vector_6& m : free) m = to_input * m;
@@ -181,7 +181,7 @@ Registration_outcome registration_of(const Reduced_scan& a, const Reduced_scan& 
     Judged_by by = Judged_by::PAIR;
     const auto judge_again = [&](Judged_by other) {
       std::vector<Judged_pose> again = poses(judge, other);
-      if (probability_of_any(again) < plausible) return;
+      if (probability_of_any(again) < least_plausible(other)) return;
       outcome.poses = std::move(again);
       by = other;
     };
