@@ -52,6 +52,7 @@ using benchmark_tools::Part_mesh;
 using benchmark_tools::Pose_of_view;
 using benchmark_tools::Prepared;
 using benchmark_tools::View;
+using Laws = CRI::Evidence_coefficients; // of the judge
 
 namespace {
 
@@ -67,18 +68,12 @@ struct Choice
   bool has_right() const { return std::find(is_right.begin(), is_right.end(), true) != is_right.end(); }
 };
 
-// The laws, in the coefficients of the judge.
-struct Laws
-{
-  CRI::Evidence_coefficients c = CRI::coefficients_of_body({});
-};
-
 std::vector<CRI::Judged_pose> judged(const Choice& choice, const Laws& laws)
 {
   std::vector<CRI::Judged_pose> poses(choice.poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     poses[i].evidence = choice.poses[i];
-    poses[i].log_weight = CRI::log_weight(choice.poses[i], choice.poses[i].usual, laws.c);
+    poses[i].log_weight = CRI::log_weight(choice.poses[i], choice.poses[i].usual, laws);
   }
   return poses;
 }
@@ -179,7 +174,7 @@ constexpr std::size_t no_part = (std::numeric_limits<std::size_t>::max)();
 // similar models agree as well.
 Laws fit(const std::vector<Choice>& choices, std::size_t without, const Laws* held)
 {
-  Laws laws;
+  Laws laws = CRI::coefficients_of_body({});
   using Of_any = benchmark_tools::Conditional_logit<4>;
   Of_any of_any;
   for (const Choice& choice : choices) {
@@ -191,10 +186,10 @@ Laws fit(const std::vector<Choice>& choices, std::size_t without, const Laws* he
     of_any.add_choice({f}, choice.is_right[std::size_t(leading - poses.begin())] ? 0 : -1, choice.part);
   }
   Of_any::Estimate any;
-  any.lapse = held ? held->c.usual_any.lapse : 0.01;
+  any.lapse = held ? held->usual_any.lapse : 0.01;
   any = of_any.fit(without, any, held != nullptr);
   const auto& b = any.coefficients;
-  laws.c.usual_any = {0, b[0], b[1], 0, b[2], b[3], any.lapse};
+  laws.usual_any = {0, b[0], b[1], 0, b[2], b[3], any.lapse};
   return laws;
 }
 
@@ -215,7 +210,7 @@ Calibration cross_validation(const std::vector<Choice>& choices, const Laws& all
     for (const Choice& choice : choices) {
       if (choice.part != part) continue;
       std::vector<CRI::Judged_pose> poses = judged(choice, laws);
-      CRI::share_probability(poses, true, laws.c);
+      CRI::share_probability(poses, true, laws);
       const auto best = std::max_element(poses.begin(), poses.end(),
                                          [](const auto& a, const auto& b) { return a.probability < b.probability; });
       const bool is_right = choice.is_right[std::size_t(best - poses.begin())];
@@ -316,7 +311,7 @@ void write_header(std::ostream& out, const Laws& laws, const std::string& how)
         << l.lead << ", " << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
   };
   out << "  // The log-odds that one of the distinct poses is right.\n";
-  law("any", laws.c.usual_any);
+  law("any", laws.usual_any);
   out << "};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
          "#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_BODY_COEFFICIENTS_H\n";
 }

@@ -32,19 +32,21 @@ namespace internal {
 // of the voxels around are looked at, too.
 inline bool is_on(const Surfel_level& body, const Vector_f& place, float distance)
 {
-  constexpr float half_diagonal = 0.75f;
+  constexpr float reach = 0.75f; // in spacings
   const auto is_near = [&](const Vector_f& at) {
     const int i = body.field.nearest(at);
     if (i < 0) return false;
     const Surfel& s = body.surfels[std::size_t(i)];
     const Vector_f d = place - s.position;
     const float height = s.normal.dot(d), aside = (d - height * s.normal).norm(),
-                beyond = (std::max)(aside - half_diagonal * body.spacing, 0.f);
+                beyond = (std::max)(aside - reach * body.spacing, 0.f);
     return height * height + beyond * beyond <= distance * distance;
   };
   if (is_near(place)) return true;
+  constexpr int here = 13; // of the 27 voxels
   for (int k = 0; k < 27; ++k)
-    if (is_near(place + body.spacing * Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).cast<float>())) return true;
+    if (k != here && is_near(place + body.spacing * Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).cast<float>()))
+      return true;
   return false;
 }
 
