@@ -8,10 +8,10 @@
 // Measures what the judgement of poses needs to know, on generated scans, and writes the header that holds it.
 //
 // Bodies, bodies on pedestals, machined parts and rooms are seen by sensors from fine to coarse, with and without their
-// sensor; right, disjoint, mirrored and foreign pairs are searched. How probes come out under right poses and under the
-// candidates gives the tables; evidence and truth of the distinct poses, after each round of the search, the
-// coefficients of the confidence, by conditional logistic regression (McFadden 1974). Each setting, a sensor and a kind
-// of scene, is judged by coefficients fitted to the others: Brier score and reliability are of these.
+// sensor; right, disjoint, mirrored and foreign pairs are searched, of one sensor and of two. How probes come out under
+// right poses and under the candidates gives the tables; evidence and truth of the distinct poses, after each round of
+// the search, the coefficients of the confidence, by conditional logistic regression (McFadden 1974). Each setting, a
+// sensor and a kind of scene, is judged by coefficients fitted to the others: Brier score and reliability are of these.
 //
 // With --check nothing is fitted: the coefficients of the header are judged, and what is returned says whether they are
 // calibrated.
@@ -112,18 +112,23 @@ struct Generation
   std::size_t seeds, views;
 };
 
-// All pairs of the views of all scenes, the first view in a mirror, and the first view of another scene.
+// All pairs of the views of all scenes, and every other view with the next one in a mirror and with that of another
+// scene.
 // Returns the number of settings and of pairs.
 std::pair<std::size_t, std::size_t> for_each_pair(const Generation& generation, const Coefficients& coefficients,
                                                   const Round_function& function)
 {
   std::size_t setting = 0, pairs = 0;
-  for (const Sensor_model& sensor : generation.sensors) {
+  for (std::size_t k = 0; k < generation.sensors.size(); ++k) {
+    // Views by turns from this one and from one that is unlike it.
+    constexpr std::size_t further = 5;
+    const Sensor_model &sensor = generation.sensors[k],
+                       &other = generation.sensors[(k + further) % generation.sensors.size()];
     for (const std::string kind : {"statue", "pedestal", "plinth", "part", "room"}) {
-      std::optional<Scan> foreign;
+      std::vector<Scan> foreign;
       for (std::size_t s = 0; s < generation.seeds; ++s) {
         const Simulated_set set(kind, generation.first_seed + unsigned(s), generation.views,
-                                360. / double(generation.views), sensor);
+                                360. / double(generation.views), std::vector<Sensor_model>{sensor, other});
         std::vector<Scan> scans;
         for (std::size_t i = 0; i < generation.views; ++i)
           scans.push_back(scan_of(set.views()[i].image, (i + s) % 3 != 2));
@@ -136,11 +141,14 @@ std::pair<std::size_t, std::size_t> for_each_pair(const Generation& generation, 
             const CRI::Rigid_motion truth = set.motion(i, j);
             pair(scans[i], scans[j], set.overlap(i, j) > 0 ? &truth : nullptr);
           }
-        pair(scans[0], scan_of(mirrored(set.views()[1].image), true), nullptr);
-        if (foreign) pair(*foreign, scans[0], nullptr);
-        foreign = scans[0];
+        for (std::size_t i = 0; i < generation.views; i += 2) {
+          const auto& next = set.views()[(i + 1) % generation.views].image;
+          pair(scans[i], scan_of(mirrored(next), (i + s) % 3 != 1), nullptr);
+          if (!foreign.empty()) pair(foreign[i], scans[i], nullptr);
+        }
+        foreign = std::move(scans);
       }
-      std::cerr << kind << ", " << sensor.samples << " samples, noise " << sensor.noise << ": " << pairs
+      std::cerr << kind << ", " << sensor.samples << " and " << other.samples << " samples: " << pairs
                 << " pairs so far\n";
       ++setting;
     }
@@ -256,13 +264,17 @@ std::vector<CRI::Judged_pose> judged(const Choice& choice, const Coefficients& c
 
 constexpr std::size_t no_setting = (std::numeric_limits<std::size_t>::max)();
 
-// The law of which pose is right, if one is: without lead and offset, which say nothing of that.
+// The law of which pose is right, if one is: without what says whether one is.
 struct Law_of_shares
 {
   using Logit = benchmark_tools::Conditional_logit<3, false>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.share = {e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, 0, 0, e.lapse};
+    c.share = {};
+    c.share.slope = e.coefficients[0];
+    c.share.residual = e.coefficients[1];
+    c.share.violations = e.coefficients[2];
+    c.share.lapse = e.lapse;
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
@@ -293,23 +305,19 @@ Logit logit_of_any(const std::vector<Choice>& choices, const Coefficients& c, bo
 // The law of whether any of the poses is right.
 struct Law_of_any
 {
-  using Logit = benchmark_tools::Conditional_logit<6>;
+  using Logit = benchmark_tools::Conditional_logit<8>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.any = {e.coefficients[0],
-             e.coefficients[1],
-             e.coefficients[2],
-             e.coefficients[3],
-             e.coefficients[4],
-             e.coefficients[5],
-             e.lapse};
+    const auto& b = e.coefficients;
+    c.any = {b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
     return logit_of_any<Logit>(choices, c, false, [](const CRI::Leading_pose& leading) {
       const CRI::Pose_evidence& e = leading.pose->evidence;
       Logit::Features f;
-      f << leading.root, e.residual, std::sqrt(e.violations), leading.lead, e.variety, 1;
+      f << leading.root, e.residual, std::sqrt(e.violations), leading.lesser, leading.lead, leading.distinction,
+          e.variety, 1;
       return f;
     });
   }
@@ -321,8 +329,8 @@ struct Law_of_usual_any
   using Logit = benchmark_tools::Conditional_logit<5>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.usual_any = {
-        e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, e.coefficients[3], e.coefficients[4], e.lapse};
+    const auto& b = e.coefficients;
+    c.usual_any = {b[0], b[1], b[2], 0, 0, 0, b[3], b[4], e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
@@ -458,10 +466,12 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
       << how
       << "\nnamespace CGAL {\nnamespace Crude_registration {\nnamespace internal {\n\n"
          "// A linear law: slope root(evidence) + residual (RMS of the probes that agree, in tolerances) + violations "
-         "sqrt(probes in\n// free space a probe that agrees) + lead (of the root over the mean of the others) + "
-         "variety (logarithm\n// of the number of planes that agree) + offset; lapse: the share of answers that obey "
-         "no such law.\n"
-         "struct Evidence_law\n{\n  double slope, residual, violations, lead, variety, offset, lapse;\n};\n\n"
+         "sqrt(probes in\n// free space a probe that agrees) + lesser root(evidence of the scan that says less) + lead "
+         "(of the root over the mean of\n// the others) + distinction (log-odds of being the right one) + variety "
+         "(logarithm of the number of planes that agree) +\n// offset; lapse: the share of answers that obey no such "
+         "law.\n"
+         "struct Evidence_law\n{\n  double slope = 0, residual = 0, violations = 0, lesser = 0, lead = 0, distinction "
+         "= 0, variety = 0, offset = 0, lapse = 0;\n};\n\n"
          "struct Evidence_coefficients\n{\n"
       << std::setprecision(5);
   const auto list = [&](const char* name, const double* values, std::size_t n) {
@@ -483,7 +493,8 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
   list("wrong_fit", c.wrong_fit, 12);
   const auto law = [&](const char* name, const CRI::Evidence_law& l) {
     out << "  Evidence_law " << name << " = {" << l.slope << ", " << l.residual << ", " << l.violations << ", "
-        << l.lead << ", " << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
+        << l.lesser << ", " << l.lead << ", " << l.distinction << ", " << l.variety << ", " << l.offset << ", "
+        << l.lapse << "};\n";
   };
   out << "  // The root is of n / (n + surfels) evidence a probe; n: of the scan with fewer.\n  double surfels = "
       << c.surfels << ";\n  // The logarithms of the weights of distinct poses, if one is right.\n";

@@ -82,6 +82,12 @@ public:
   // `kind`: statue, pedestal, plinth (a large pedestal), part or room. Views of bodies go around the upright axis in
   // steps of `degrees`.
   Simulated_set(const std::string& kind, unsigned seed, std::size_t views, double degrees, const Sensor_model& sensor)
+      : Simulated_set(kind, seed, views, degrees, std::vector<Sensor_model>{sensor})
+  {}
+
+  // The same by several sensors, which take turns.
+  Simulated_set(const std::string& kind, unsigned seed, std::size_t views, double degrees,
+                const std::vector<Sensor_model>& sensors)
   {
     const Random random(seed * 7919u + 17u);
     Mesh& mesh = m_mesh;
@@ -96,6 +102,7 @@ public:
     const CGAL::Crude_registration::Simulated_scene scene(mesh);
     const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
     for (std::size_t i = 0; i < views; ++i) {
+      const Sensor_model& sensor = sensors[i % sensors.size()];
       const double angle = double(i) * degrees * CGAL_PI / 180 + 0.3;
       Camera camera;
       if (kind == "room") {
