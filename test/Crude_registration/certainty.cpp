@@ -12,6 +12,7 @@
 
 #include "statue_views.h"
 
+#include <CGAL/Crude_registration/internal/judgement/evidence_coefficients.h>
 #include <CGAL/Crude_registration/internal/motion/twist.h>
 #include <CGAL/Crude_registration/judge_motion.h>
 
@@ -266,11 +267,10 @@ Mesh subdivided(Mesh mesh)
 } // namespace
 
 // More vertices on the same surface are no more evidence: what is believed of the true motion changes by less than it
-// is known to be right by, which is what fit_confidence measured (the expected calibration error in
-// evidence_coefficients.h).
+// is known to be right by, which is what fit_confidence measured: the expected calibration error.
 BOOST_AUTO_TEST_CASE(subdivision_is_no_evidence)
 {
-  constexpr double calibration_error = 0.0178;
+  const double calibration_error = CR::internal::Evidence_coefficients().calibration_error;
   std::vector<const View*> views;
   std::vector<Scan> plain, fine;
   std::size_t vertices = 0, more = 0;

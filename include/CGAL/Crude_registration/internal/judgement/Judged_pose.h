@@ -35,7 +35,6 @@ struct Pose_evidence
   // A probe, of log( P(outcome | right) / P(outcome | chance) ): as chance is among the candidates that the search has
   // tried, among these and some that it has dropped, and between any two scans.
   double tried = 0, fuller = 0, usual = 0;
-  double lesser = 0;     // as chance is among what was tried, a probe of that scan of which the probes say less
   double residual = 0;   // root mean square of the probes that agree, in tolerances
   double violations = 0; // probes in free space, for each that agrees
   double surfels = 0;    // of the scan with fewer

@@ -324,13 +324,10 @@ private:
       std::vector<std::size_t> near;
       for (const std::size_t k : rows)
         if (are_one(judged.pose, m_candidates[k], m_extent)) near.push_back(k);
-      return std::array<double, 2>{chance.source.evidence(source, near), chance.target.evidence(target, near)};
+      return (chance.source.evidence(source, near) + chance.target.evidence(target, near)) / probes;
     };
-    const auto tried = evidence(*m_chance, m_tried_rows), fuller = evidence(*m_fuller_chance, m_all_rows);
-    judged.evidence.tried = (tried[0] + tried[1]) / probes;
-    judged.evidence.fuller = (fuller[0] + fuller[1]) / probes;
-    judged.evidence.lesser =
-        (std::min)(tried[0] / double(m_source_probes.size()), tried[1] / double(m_target_probes.size()));
+    judged.evidence.tried = evidence(*m_chance, m_tried_rows);
+    judged.evidence.fuller = evidence(*m_fuller_chance, m_all_rows);
     judged.evidence.usual = (usual_evidence(source, m_source_probes.size(), m_usual) +
                              usual_evidence(target, m_target_probes.size(), m_usual)) /
                             probes;

@@ -27,7 +27,7 @@ namespace internal {
 struct Body_coefficients
 {
   // The log-odds that one of the distinct poses is right.
-  Evidence_law any = {0, -28.324, -77.798, 0, 0, 0, 5.4772, 4.5603, 0.0097678};
+  Evidence_law any = {0, -28.324, -77.798, 0, 0, 5.4772, 4.5603, 0.0097678};
 };
 
 } // namespace internal

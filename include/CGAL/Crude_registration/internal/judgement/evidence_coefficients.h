@@ -23,13 +23,12 @@ namespace Crude_registration {
 namespace internal {
 
 // A linear law: slope root(evidence) + residual (RMS of the probes that agree, in tolerances) + violations sqrt(probes
-// in free space a probe that agrees) + lesser root(evidence of the scan that says less) + lead (of the root over the
+// in free space a probe that agrees) + lead (of the root over the
 // mean of the others) + distinction (log-odds of being the right one) + variety (logarithm of the number of planes that
 // agree) + offset; lapse: the share of answers that obey no such law.
 struct Evidence_law
 {
-  double slope = 0, residual = 0, violations = 0, lesser = 0, lead = 0, distinction = 0, variety = 0, offset = 0,
-         lapse = 0;
+  double slope = 0, residual = 0, violations = 0, lead = 0, distinction = 0, variety = 0, offset = 0, lapse = 0;
 };
 
 struct Evidence_coefficients
@@ -49,10 +48,10 @@ struct Evidence_coefficients
   // The root is of n / (n + surfels) evidence a probe; n: of the scan with fewer.
   double surfels = 100;
   // The logarithms of the weights of distinct poses, if one is right.
-  Evidence_law share = {29.355, -29.198, -30.639, 0, 0, 0, 0, 0, 0.0021768};
+  Evidence_law share = {29.355, -29.198, -30.639, 0, 0, 0, 0, 0.0021768};
   // The log-odds that one of them is right, and the same as chance is between any two scans.
-  Evidence_law any = {3.546, -10.296, -16.291, 3.7638, 4.6144, 0.42813, 2.3319, -8.143, 0.01272};
-  Evidence_law usual_any = {7.595, -10.06, -11.881, 0, 0, 0, 4.5816, -8.7285, 0.0095279};
+  Evidence_law any = {3.546, -10.296, -16.291, 4.6144, 0.42813, 2.3319, -8.143, 0.01272};
+  Evidence_law usual_any = {7.595, -10.06, -11.881, 0, 0, 4.5816, -8.7285, 0.0095279};
   // By how much the probabilities are off: the expected calibration error, in cross-validation.
   double calibration_error = 0.0177;
 };

@@ -59,7 +59,6 @@ struct Leading_pose
 {
   const Judged_pose* pose;
   double root;        // of its evidence
-  double lesser;      // of that of the scan that says less: either has to agree with the other one
   double lead;        // of the root over the mean of those of all others and of one that has none
   double distinction; // log-odds that it is the right one, if one of them is, or one without evidence
 };
@@ -82,15 +81,15 @@ inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_
   }
   const auto n = double(poses.size());
   const double lapse = c.share.lapse, share = 1 / (1 + weights);
-  return {&*best, root(*best), root_of_evidence(best->evidence, best->evidence.lesser, c), root(*best) - roots / n,
-          std::log(((1 - lapse) * share + lapse / (n + 1)) / ((1 - lapse) * weights * share + lapse * n / (n + 1)))};
+  return {&*best, root(*best), root(*best) - roots / n,
+          std::log(((1 - lapse) * share + lapse / (n + 1)) / ((1 - lapse) * (1 - share) + lapse * n / (n + 1)))};
 }
 
 // The log-odds that any of them is right.
 inline double log_odds_of_any(const Evidence_law& law, const Leading_pose& leading)
 {
   const Pose_evidence& evidence = leading.pose->evidence;
-  return law_of_evidence(law, leading.root, evidence) + law.lesser * leading.lesser + law.lead * leading.lead +
+  return law_of_evidence(law, leading.root, evidence) + law.lead * leading.lead +
          law.distinction * leading.distinction + law.variety * evidence.variety;
 }
 
