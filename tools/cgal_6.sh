@@ -27,7 +27,8 @@ grep -h '#define CGAL_VERSION ' -r "$unpacked/usr/include/CGAL/version.h"
 launcher=$(command -v ccache || true)
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCGAL_DIR="$(dirname "$config")" \
   ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON} \
-  -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF -DCRUDE_REGISTRATION_WITH_APPS=OFF -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF
+  -DCRUDE_REGISTRATION_TESTS_TOGETHER=OFF -DCRUDE_REGISTRATION_WITH_BENCHMARKS=OFF \
+  -DCRUDE_REGISTRATION_WITH_APPS=OFF -DCRUDE_REGISTRATION_WITH_EXAMPLES=OFF
 . tools/test_programs.sh
 cd "$build"
 build_test_programs "$@"

@@ -152,7 +152,30 @@ Registration_result<Kernel> register_scans(const Scan<Kernel>& source, const Sca
   }));
 }
 
+#ifdef CGAL_CRUDE_REGISTRATION_COMPILED
+// With the kernel that most programs use, and the default generator, it is compiled with the core, as the preparation
+// of scans without named parameters is below.
+extern template Registration_result<Scan<>::Kernel>
+register_scans<CGAL::Sequential_tag>(const Scan<>&, const Scan<>&, const Oriented_pair_candidates&, Run_control&);
+#ifdef CGAL_LINKED_WITH_TBB
+extern template Registration_result<Scan<>::Kernel>
+register_scans<CGAL::Parallel_tag>(const Scan<>&, const Scan<>&, const Oriented_pair_candidates&, Run_control&);
+#endif
+#endif
+
 } // namespace internal
+
+#ifdef CGAL_CRUDE_REGISTRATION_COMPILED
+extern template void Scan<>::prepare_image(const Range_image<Scan<>::Kernel>&,
+                                           const parameters::Default_named_parameters&, const std::string&,
+                                           internal::Run_control&);
+extern template void Scan<>::prepare_points(const std::vector<Scan<>::Point_3>&, const std::vector<Scan<>::Vector_3>&,
+                                            const Sensor<Scan<>::Kernel>&, const parameters::Default_named_parameters&,
+                                            const std::string&, internal::Run_control&);
+extern template void Scan<>::prepare(const internal::Flat_mesh&, const internal::Flat_sensor&,
+                                     const internal::Flat_range_image*, const parameters::Default_named_parameters&,
+                                     const int&, const std::string&, internal::Run_control&);
+#endif
 
 /*!
 \ingroup PkgCrudeRegistrationRef

@@ -71,6 +71,13 @@ CGAL::Surface_mesh<typename Kernel::Point_3> triangulate_scan(const Scan_file<Ke
   return mesh;
 }
 
+#ifdef CGAL_CRUDE_REGISTRATION_COMPILED
+// The kernel that most programs use is compiled with the core.
+extern template CGAL::Surface_mesh<Exact_predicates_inexact_constructions_kernel::Point_3>
+triangulate_scan(const Scan_file<Exact_predicates_inexact_constructions_kernel>&,
+                 const parameters::Default_named_parameters&);
+#endif
+
 } // namespace Crude_registration
 } // namespace CGAL
 
