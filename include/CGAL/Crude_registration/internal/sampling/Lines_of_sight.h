@@ -121,8 +121,9 @@ public:
       if (m_grid[std::size_t(at)] != std::int32_t(i)) continue; // another one is in its cell
       constexpr std::int32_t cells_around = 27;
       for (std::int32_t k = cells_around / 2 + 1; k < cells_around; ++k) {
-        const std::int32_t j = m_grid[std::size_t(at + (k % 3 - 1) * m_strides[0] + (k / 3 % 3 - 1) * m_strides[1] +
-                                                  (k / 9 - 1) * m_strides[2])];
+        const std::int32_t beside =
+            at + (k % 3 - 1) * m_strides[0] + (k / 3 % 3 - 1) * m_strides[1] + (k / 9 - 1) * m_strides[2];
+        const std::int32_t j = m_grid[std::size_t(beside)];
         if (j >= 0) f(i, std::size_t(j));
       }
     }
