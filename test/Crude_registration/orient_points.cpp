@@ -128,6 +128,28 @@ Cloud view_of_room(std::size_t n)
   return cloud;
 }
 
+// Stairs, as they are seen from far away in a direction of which all coordinates are positive: nothing hides a part.
+Cloud view_of_stairs(const Vector& towards_sensor, std::size_t n)
+{
+  constexpr std::array<std::array<double, 2>, 5> corners = {{{1.4, 0}, {1.05, 0.2}, {0.65, 0.45}, {0.3, 0.75}, {0, 1}}};
+  constexpr double width = 0.8;
+  Cloud cloud;
+  const Counter_random random(5);
+  for (std::uint64_t i = 0; cloud.points.size() < n; ++i) {
+    const Vector p(1.4 * random.uniform(5 * i), random.uniform(5 * i + 1), width * random.uniform(5 * i + 2));
+    const auto axis = Eigen::Index(3 * random.uniform(5 * i + 3));
+    // As dense as a sensor sees it.
+    if (random.uniform(5 * i + 4) > towards_sensor[axis]) continue;
+    // The step on which p is, or of which it is the front or the end.
+    std::size_t k = 0;
+    while (k + 1 < corners.size() && (axis == 0 ? p[1] > corners[k + 1][1] : p[0] < corners[k + 1][0])) ++k;
+    if (axis == 0) cloud.add({corners[k][0], p[1], p[2]}, Vector::UnitX());
+    else if (axis == 1) cloud.add({p[0], corners[k + 1][1], p[2]}, Vector::UnitY());
+    else if (p[1] < corners[k + 1][1]) cloud.add({p[0], p[1], width}, Vector::UnitZ());
+  }
+  return cloud;
+}
+
 // By a spinning scanner: rings of which each is far denser along than the rings are across.
 Cloud rings(std::size_t number, std::size_t points)
 {
@@ -259,6 +281,20 @@ BOOST_AUTO_TEST_CASE(a_room_is_seen_from_inside)
     BOOST_TEST(q.compared > 0.7);
     BOOST_TEST(q.right_angle > 0.95);
     BOOST_TEST(q.right_side > (samples == &with ? 0.999 : 0.96));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(no_face_is_seen_from_behind)
+{
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    const Vector towards_sensor = (direction(Counter_random(8), i).cwiseAbs() + Vector::Constant(0.3)).normalized();
+    const Cloud cloud = view_of_stairs(towards_sensor, 5000);
+    const Oriented_points found = orient_points(cloud.points, {}, {});
+    double outside = 0;
+    for (std::size_t k = 0; k < found.points.size(); ++k) outside += found.normals[k].dot(towards_sensor) > 0;
+    outside /= double(found.points.size());
+    // All of them may be turned over.
+    BOOST_TEST((std::max)(outside, 1 - outside) > 0.98, "view " << i << ": " << outside);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "generated_surfaces.h"
 
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
+#include <CGAL/Crude_registration/internal/reduction/group_samples.h>
 #include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
 #include <CGAL/Crude_registration/internal/simulation/Statue.h>
 
@@ -274,6 +275,47 @@ BOOST_AUTO_TEST_CASE(surfels_stand_for_the_samples)
         BOOST_TEST(is_near);
       }
     }
+}
+
+// The root of the mean square of how far surfels lie off a surface.
+template <class Height>
+double off_surface(const Oriented_samples& samples, float cell, bool has_edges, const Height& height)
+{
+  const Surfel_level level = group_samples(samples.points, samples.normals, {}, cell, to_the_end(), has_edges);
+  BOOST_TEST(level.surfels.size() > 100u);
+  double sum = 0;
+  for (const Surfel& s : level.surfels) sum += std::pow(height(s.position.cast<double>()), 2);
+  return std::sqrt(sum / double(level.surfels.size()));
+}
+
+BOOST_AUTO_TEST_CASE(surfels_of_points_lie_on_edges_and_on_what_is_bent)
+{
+  const float cell = 0.1f;
+  Oriented_samples edge, ball;
+  const auto put = [](Oriented_samples& samples, const Vector& point, const Vector& normal) {
+    samples.points.push_back(point.cast<float>());
+    samples.normals.push_back(normal.cast<float>());
+  };
+  // Two faces that meet at right angles, oblique to the cells.
+  const Matrix turn = Eigen::AngleAxisd(0.7, Vector(1, 2, 3).normalized()).toRotationMatrix();
+  const Counter_random random(7);
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const double along = 4 * random.uniform(4 * i), down = -0.15 * random.uniform(4 * i + 1);
+    const bool is_first = i % 2 == 0;
+    put(edge, turn * (is_first ? Vector(down, along, 0) : Vector(0, along, down)),
+        turn * (is_first ? Vector(0, 0, 1) : Vector(1, 0, 0)));
+    const Vector on_ball =
+        unit_or_zero(Vector(random.normal(4 * i), random.normal(4 * i + 1), random.normal(4 * i + 2)));
+    put(ball, 0.5 * on_ball, on_ball);
+  }
+  const auto from_edge = [&](const Vector& p) {
+    const Vector q = turn.transpose() * p;
+    return q[0] <= 0 && q[2] <= 0 ? (std::min)(-q[0], -q[2])
+                                  : Vector((std::max)(q[0], 0.), 0, (std::max)(q[2], 0.)).norm();
+  };
+  const auto from_ball = [](const Vector& p) { return p.norm() - 0.5; };
+  BOOST_TEST(off_surface(edge, cell, true, from_edge) < 0.65 * off_surface(edge, cell, false, from_edge));
+  BOOST_TEST(off_surface(ball, cell, true, from_ball) < 0.3 * off_surface(ball, cell, false, from_ball));
 }
 
 BOOST_AUTO_TEST_CASE(curvatures_of_known_surfaces)

@@ -38,7 +38,7 @@ inline constexpr char scan_magic[] = "CRScan\r\n";
 inline constexpr std::size_t scan_magic_size = sizeof scan_magic - 1;
 
 // To be raised whenever what is written changes, or what is made of a scan: a scan of another version is of no use.
-inline constexpr std::uint32_t scan_version = 3;
+inline constexpr std::uint32_t scan_version = 4;
 
 inline std::uint32_t checksum(const char* data, std::size_t size)
 {

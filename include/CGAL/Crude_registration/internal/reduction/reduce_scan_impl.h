@@ -51,17 +51,18 @@ inline double cell_of_surfels(double area, double number)
 }
 
 // All that follows the samples of a surface of the given area. `scan` has its frame and its extent; `seen`: all that
-// the sensor saw, or null for the samples.
+// the sensor saw, or null for the samples; `has_edges`: see group_samples().
 inline void reduce_samples(const Oriented_samples& samples, double area, const Flat_sensor& sensor,
-                           const Vector& direction, const std::vector<Vector>* seen,
+                           const Vector& direction, const std::vector<Vector>* seen, bool has_edges,
                            const Reduction_parameters& parameters, Run_control& control, Reduced_scan& scan)
 {
   const Rigid_motion& own = scan.own_from_input;
   // What is not a surface but dust takes larger cells, until the surfels can be numbered.
   const auto grouped = [&](const std::vector<Vector_f>& p, const std::vector<Vector_f>& n, const std::vector<float>& w,
                            float cell) {
-    Surfel_level level = group_samples(p, n, w, cell, control);
-    while (level.surfels.size() > Surfel_field::maximum_size) level = group_samples(p, n, w, cell *= 1.5f, control);
+    Surfel_level level = group_samples(p, n, w, cell, control, has_edges);
+    while (level.surfels.size() > Surfel_field::maximum_size)
+      level = group_samples(p, n, w, cell *= 1.5f, control, has_edges);
     return level;
   };
   scan.number_of_samples = samples.points.size();
@@ -125,7 +126,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Flat_mesh& mesh, c
   const double distance = 0.5 * cell_of_surfels(area, parameters.fine_surfels);
   scan.is_body = sensor.kind == Flat_sensor::UNKNOWN && encloses_a_body(mesh, scan.own_from_input.rotation, control);
   const Oriented_samples samples = samples_of_faces(mesh, areas, scan.own_from_input, sensor, distance, control);
-  reduce_samples(samples, area, sensor, direction, seen, parameters, control, scan);
+  reduce_samples(samples, area, sensor, direction, seen, false, parameters, control, scan);
   return scan;
 }
 
@@ -138,7 +139,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Reduced_scan reduce_scan(const Oriented_points& p
   const Vector size = extent_in_frame(points, scan.own_from_input, control);
   scan.extent = size.sum() / 3;
   if (!(points.area > 0)) return scan;
-  reduce_samples(samples_of_points(points, scan.own_from_input, control), points.area, sensor, direction, nullptr,
+  reduce_samples(samples_of_points(points, scan.own_from_input, control), points.area, sensor, direction, nullptr, true,
                  parameters, control, scan);
   return scan;
 }

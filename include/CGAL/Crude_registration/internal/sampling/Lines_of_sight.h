@@ -48,12 +48,7 @@ public:
     m_grid.assign(std::size_t(m_strides[2]) * std::size_t(m_cells[2] + 2), outside);
     for (std::int32_t z = 0; z < m_cells[2]; ++z)
       for (std::int32_t y = 0; y < m_cells[1]; ++y) std::fill_n(m_grid.begin() + index({0, y, z}), m_cells[0], empty);
-    for (std::size_t i = 0; i < m_points.size(); ++i) {
-      const Vector q = (m_points[i] - m_corner) / m_cell;
-      std::array<std::int32_t, 3> c{};
-      for (std::size_t k = 0; k < 3; ++k) c[k] = (std::min)(std::int32_t(q[Eigen::Index(k)]), m_cells[k] - 1);
-      m_grid[std::size_t(index(c))] = std::int32_t(i);
-    }
+    for (std::size_t i = 0; i < m_points.size(); ++i) m_grid[std::size_t(index(cell_of(i)))] = std::int32_t(i);
   }
 
   bool has_grid() const { return !m_grid.empty(); }
@@ -117,7 +112,32 @@ public:
     }
   }
 
+  // f(i, j) for every two samples whose cells touch, once. \pre has_grid()
+  template <class Function>
+  void for_each_pair_of_neighbours(const Function& f) const
+  {
+    for (std::size_t i = 0; i < m_points.size(); ++i) {
+      const std::int32_t at = index(cell_of(i));
+      if (m_grid[std::size_t(at)] != std::int32_t(i)) continue; // another one is in its cell
+      constexpr std::int32_t cells_around = 27;
+      for (std::int32_t k = cells_around / 2 + 1; k < cells_around; ++k) {
+        const std::int32_t beside =
+            at + (k % 3 - 1) * m_strides[0] + (k / 3 % 3 - 1) * m_strides[1] + (k / 9 - 1) * m_strides[2];
+        const std::int32_t j = m_grid[std::size_t(beside)];
+        if (j >= 0) f(i, std::size_t(j));
+      }
+    }
+  }
+
 private:
+  std::array<std::int32_t, 3> cell_of(std::size_t i) const
+  {
+    const Vector q = (m_points[i] - m_corner) / m_cell;
+    std::array<std::int32_t, 3> c{};
+    for (std::size_t k = 0; k < 3; ++k) c[k] = (std::min)(std::int32_t(q[Eigen::Index(k)]), m_cells[k] - 1);
+    return c;
+  }
+
   bool is_blocked(std::size_t i, const Vector& from, const Vector& d, double start, double length) const
   {
     const double cosine = m_normals[i].dot(d);

@@ -56,8 +56,17 @@ public:
     keep_best(places, 350, 1000, 1, all);
     // A body seen from one side is as visible from behind: the surface bulges towards the sensor, if anywhere.
     const Place& best = places.front();
-    for (const Place& p : places)
-      if (p.visible >= all && bulge(p.position) > 0) return p.position;
+    const std::vector<Tie> ties = all_ties();
+    std::optional<Vector> found;
+    double most_agrees = 0;
+    for (const Place& p : places) {
+      if (!(p.visible >= all && bulge(p.position) > 0)) continue;
+      const double agrees = p.visible - share_torn(ties, p.position);
+      if (found && !(agrees > most_agrees)) continue;
+      found = p.position;
+      most_agrees = agrees;
+    }
+    if (found) return found;
     if (best.visible < most || coverage(best.position) > half_of_the_sphere) return std::nullopt;
     return best.position;
   }
@@ -68,6 +77,40 @@ private:
     Vector position;
     double visible; // share of the samples
   };
+
+  // What two samples side by side say of each other's side: see Sides_of_points.
+  struct Tie
+  {
+    std::uint32_t a, b;
+    double weight; // negative where their normals look to opposite sides
+  };
+
+  std::vector<Tie> all_ties() const
+  {
+    std::vector<Tie> ties;
+    m_lines.for_each_pair_of_neighbours([&](std::size_t i, std::size_t j) {
+      const Vector d = unit_or_zero(m_lines.point(j) - m_lines.point(i)), &n = m_lines.normal(i),
+                   &m = m_lines.normal(j);
+      const double a = n.dot(d), b = m.dot(d);
+      ties.push_back({std::uint32_t(i), std::uint32_t(j), (n.dot(m) - 2 * a * b) * (1 - std::abs(a * b))});
+    });
+    return ties;
+  }
+
+  // A place from which the back of a face is seen, with nothing before it, turns that face the wrong way: the share of
+  // the ties that are torn between it and the next face.
+  double share_torn(const std::vector<Tie>& ties, const Vector& place) const
+  {
+    std::vector<double> side(m_lines.size());
+    for (std::size_t i = 0; i < m_lines.size(); ++i)
+      side[i] = m_lines.normal(i).dot(place - m_lines.point(i)) < 0 ? -1 : 1;
+    double torn = 0, sum = 0;
+    for (const Tie& t : ties) {
+      sum += std::abs(t.weight);
+      torn += (std::max)(-t.weight * side[t.a] * side[t.b], 0.);
+    }
+    return sum > 0 ? torn / sum : 0;
+  }
 
   void measure()
   {
