@@ -6,6 +6,7 @@
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/reduction/group_samples.h>
 #include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
+#include <CGAL/Crude_registration/internal/reduction/sample_surface.h>
 #include <CGAL/Crude_registration/internal/simulation/Statue.h>
 
 #include <algorithm>
