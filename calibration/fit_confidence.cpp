@@ -264,13 +264,17 @@ std::vector<CRI::Judged_pose> judged(const Choice& choice, const Coefficients& c
 
 constexpr std::size_t no_setting = (std::numeric_limits<std::size_t>::max)();
 
-// The law of which pose is right, if one is: without lead and offset, which say nothing of that.
+// The law of which pose is right, if one is: without what says whether one is.
 struct Law_of_shares
 {
   using Logit = benchmark_tools::Conditional_logit<3, false>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.share = {e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, 0, 0, e.lapse};
+    c.share = {};
+    c.share.slope = e.coefficients[0];
+    c.share.residual = e.coefficients[1];
+    c.share.violations = e.coefficients[2];
+    c.share.lapse = e.lapse;
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
@@ -301,23 +305,18 @@ Logit logit_of_any(const std::vector<Choice>& choices, const Coefficients& c, bo
 // The law of whether any of the poses is right.
 struct Law_of_any
 {
-  using Logit = benchmark_tools::Conditional_logit<6>;
+  using Logit = benchmark_tools::Conditional_logit<7>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.any = {e.coefficients[0],
-             e.coefficients[1],
-             e.coefficients[2],
-             e.coefficients[3],
-             e.coefficients[4],
-             e.coefficients[5],
-             e.lapse};
+    const auto& b = e.coefficients;
+    c.any = {b[0], b[1], b[2], b[3], b[4], b[5], b[6], e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
     return logit_of_any<Logit>(choices, c, false, [](const CRI::Leading_pose& leading) {
       const CRI::Pose_evidence& e = leading.pose->evidence;
       Logit::Features f;
-      f << leading.root, e.residual, std::sqrt(e.violations), leading.lead, e.variety, 1;
+      f << leading.root, e.residual, std::sqrt(e.violations), leading.lead, leading.distinction, e.variety, 1;
       return f;
     });
   }
@@ -329,8 +328,8 @@ struct Law_of_usual_any
   using Logit = benchmark_tools::Conditional_logit<5>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
-    c.usual_any = {
-        e.coefficients[0], e.coefficients[1], e.coefficients[2], 0, e.coefficients[3], e.coefficients[4], e.lapse};
+    const auto& b = e.coefficients;
+    c.usual_any = {b[0], b[1], b[2], 0, 0, b[3], b[4], e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
@@ -466,10 +465,12 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
       << how
       << "\nnamespace CGAL {\nnamespace Crude_registration {\nnamespace internal {\n\n"
          "// A linear law: slope root(evidence) + residual (RMS of the probes that agree, in tolerances) + violations "
-         "sqrt(probes in\n// free space a probe that agrees) + lead (of the root over the mean of the others) + "
-         "variety (logarithm\n// of the number of planes that agree) + offset; lapse: the share of answers that obey "
-         "no such law.\n"
-         "struct Evidence_law\n{\n  double slope, residual, violations, lead, variety, offset, lapse;\n};\n\n"
+         "sqrt(probes in\n// free space a probe that agrees) + lead "
+         "(of the root over the mean of\n// the others) + distinction (log-odds of being the right one) + variety "
+         "(logarithm of the number of planes that agree) +\n// offset; lapse: the share of answers that obey no such "
+         "law.\n"
+         "struct Evidence_law\n{\n  double slope = 0, residual = 0, violations = 0, lead = 0, distinction "
+         "= 0, variety = 0, offset = 0, lapse = 0;\n};\n\n"
          "struct Evidence_coefficients\n{\n"
       << std::setprecision(5);
   const auto list = [&](const char* name, const double* values, std::size_t n) {
@@ -491,7 +492,7 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
   list("wrong_fit", c.wrong_fit, 12);
   const auto law = [&](const char* name, const CRI::Evidence_law& l) {
     out << "  Evidence_law " << name << " = {" << l.slope << ", " << l.residual << ", " << l.violations << ", "
-        << l.lead << ", " << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
+        << l.lead << ", " << l.distinction << ", " << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
   };
   out << "  // The root is of n / (n + surfels) evidence a probe; n: of the scan with fewer.\n  double surfels = "
       << c.surfels << ";\n  // The logarithms of the weights of distinct poses, if one is right.\n";

@@ -223,8 +223,10 @@ BOOST_AUTO_TEST_CASE(a_pose_in_doubt_is_refined_from_all_around_it)
   // By the residual alone; all poses are in doubt, or all are certain.
   const auto judge_by_residual = [&](double offset) {
     CR::internal::Evidence_coefficients coefficients;
-    coefficients.share = {0, -1, 0, 0, 0, 0, 0};
-    coefficients.any = {0, -1, 0, 0, 0, offset, 0};
+    coefficients.share = {};
+    coefficients.share.residual = -1;
+    coefficients.any = coefficients.share;
+    coefficients.any.offset = offset;
     return Pose_judge(source, target, CR::internal::Execution::SEQUENTIAL, CR::internal::to_the_end(), coefficients);
   };
   CR::internal::Proposals proposals;
@@ -445,8 +447,8 @@ BOOST_AUTO_TEST_CASE(probabilities_of_poses_and_of_none_add_up_to_one)
   for (const double odds : {-800., -3., 0., 5., 800.})
     for (const double second : {-800., 0., 3.})
       for (const bool is_usual : {false, true}) {
-        c.any = {0, 0, 0, 0, 0, is_usual ? 77 : odds, 0.04};
-        c.usual_any = {0, 0, 0, 0, 0, is_usual ? odds : 77, 0.04};
+        c.any = {0, 0, 0, 0, 0, 0, is_usual ? 77 : odds, 0.04};
+        c.usual_any = {0, 0, 0, 0, 0, 0, is_usual ? odds : 77, 0.04};
         std::vector<Judged_pose> poses(2);
         poses[1].log_weight = second;
         CR::internal::share_probability(poses, is_usual, c);

@@ -34,17 +34,17 @@ inline double root_of_evidence(const Pose_evidence& evidence, double nats, const
 }
 
 // The residual tells wrong poses, which fill the tolerance evenly; what is in free space is there together, and says
-// more than its probes; and few planes fit in many places.
-inline double law_of_evidence(const Evidence_law& law, double root, double lead, const Pose_evidence& evidence)
+// more than its probes.
+inline double law_of_evidence(const Evidence_law& law, double root, const Pose_evidence& evidence)
 {
   return law.slope * root + law.residual * evidence.residual + law.violations * std::sqrt(evidence.violations) +
-         law.lead * lead + law.variety * evidence.variety + law.offset;
+         law.offset;
 }
 
 // The logarithm of how probable a pose is beside others, if one of them is right; `nats`: of the evidence.
 inline double log_weight(const Pose_evidence& evidence, double nats, const Evidence_coefficients& c = {})
 {
-  return law_of_evidence(c.share, root_of_evidence(evidence, nats, c), 0, evidence);
+  return law_of_evidence(c.share, root_of_evidence(evidence, nats, c), evidence);
 }
 
 // Of distinct poses that with the greatest weight.
@@ -54,14 +54,16 @@ inline std::vector<Judged_pose>::const_iterator leading(const std::vector<Judged
                           [](const Judged_pose& a, const Judged_pose& b) { return a.log_weight < b.log_weight; });
 }
 
-// The same, the root of its evidence, and how far it leads the mean of the roots of all others and of one that has
-// none. `is_usual`: as chance is between any two scans.
+// The same, and what tells whether any of them is right, beside its evidence.
 struct Leading_pose
 {
   const Judged_pose* pose;
-  double root, lead;
+  double root;        // of its evidence
+  double lead;        // of the root over the mean of those of all others and of one that has none
+  double distinction; // log-odds that it is the right one, if one of them is, or one without evidence
 };
 
+// `is_usual`: as chance is between any two scans.
 // \pre There is a pose.
 inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c)
 {
@@ -69,10 +71,26 @@ inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_
   const auto root = [&](const Judged_pose& p) {
     return root_of_evidence(p.evidence, is_usual ? p.evidence.usual : p.evidence.fuller, c);
   };
-  double others = 0;
-  for (auto p = poses.begin(); p != poses.end(); ++p)
-    if (p != best) others += root(*p);
-  return {&*best, root(*best), root(*best) - others / double(poses.size())};
+  Pose_evidence none;
+  none.residual = 1 / std::sqrt(3.);                                               // what fills the tolerance evenly
+  double roots = 0, weights = std::exp(log_weight(none, 0, c) - best->log_weight); // of all others
+  for (auto p = poses.begin(); p != poses.end(); ++p) {
+    if (p == best) continue;
+    roots += root(*p);
+    weights += std::exp(p->log_weight - best->log_weight);
+  }
+  const auto n = double(poses.size());
+  const double lapse = c.share.lapse, share = 1 / (1 + weights);
+  return {&*best, root(*best), root(*best) - roots / n,
+          std::log(((1 - lapse) * share + lapse / (n + 1)) / ((1 - lapse) * (1 - share) + lapse * n / (n + 1)))};
+}
+
+// The log-odds that any of them is right.
+inline double log_odds_of_any(const Evidence_law& law, const Leading_pose& leading)
+{
+  const Pose_evidence& evidence = leading.pose->evidence;
+  return law_of_evidence(law, leading.root, evidence) + law.lead * leading.lead +
+         law.distinction * leading.distinction + law.variety * evidence.variety;
 }
 
 // Two questions, each with a law of its own: is one of the distinct poses right, and if so, which one? (A nested logit,
@@ -80,14 +98,16 @@ inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_
 // that obey no such law,
 //   P(any) = (1 - l) / (1 + exp(-x)) + l / 2,  P_k = P(any) ((1 - m) w_k / sum_j w_j + m / n).
 // x is of the leading pose: all poses were refined until they fit as well as they can, so that its lead tells how much
-// comes by chance between these two scans. `is_usual`: as chance is between any two scans, whatever the others are.
+// comes by chance between these two scans; what is found between scans that have no right pose is seldom one pose that
+// leaves all others behind; and few planes fit in many places. `is_usual`: as chance is between any two scans, whatever
+// the others are.
 // \pre The variety of the leading pose is known.
 inline void share_probability(std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c = {})
 {
   if (poses.empty()) return;
   const Leading_pose first = leading_pose(poses, is_usual, c);
   const Evidence_law& law = is_usual ? c.usual_any : c.any;
-  const double log_odds = law_of_evidence(law, first.root, first.lead, first.pose->evidence),
+  const double log_odds = log_odds_of_any(law, first),
                any = (1 - law.lapse) / (1 + std::exp(-log_odds)) + law.lapse / 2, greatest = first.pose->log_weight;
   double sum = 0;
   for (const Judged_pose& p : poses) sum += std::exp(p.log_weight - greatest);
