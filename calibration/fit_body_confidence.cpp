@@ -189,7 +189,7 @@ Laws fit(const std::vector<Choice>& choices, std::size_t without, const Laws* he
   any.lapse = held ? held->usual_any.lapse : 0.01;
   any = of_any.fit(without, any, held != nullptr);
   const auto& b = any.coefficients;
-  laws.usual_any = {0, b[0], b[1], 0, 0, b[2], b[3], any.lapse};
+  laws.usual_any = {0, b[0], b[1], b[2], b[3], any.lapse};
   return laws;
 }
 
@@ -308,7 +308,7 @@ void write_header(std::ostream& out, const Laws& laws, const std::string& how)
       << std::setprecision(5);
   const auto law = [&](const char* name, const CRI::Evidence_law& l) {
     out << "  Evidence_law " << name << " = {" << l.slope << ", " << l.residual << ", " << l.violations << ", "
-        << l.lead << ", " << l.distinction << ", " << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
+        << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
   };
   out << "  // The log-odds that one of the distinct poses is right.\n";
   law("any", laws.usual_any);

@@ -305,18 +305,18 @@ Logit logit_of_any(const std::vector<Choice>& choices, const Coefficients& c, bo
 // The law of whether any of the poses is right.
 struct Law_of_any
 {
-  using Logit = benchmark_tools::Conditional_logit<7>;
+  using Logit = benchmark_tools::Conditional_logit<5>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
     const auto& b = e.coefficients;
-    c.any = {b[0], b[1], b[2], b[3], b[4], b[5], b[6], e.lapse};
+    c.any = {b[0], b[1], b[2], b[3], b[4], e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
     return logit_of_any<Logit>(choices, c, false, [](const CRI::Leading_pose& leading) {
-      const CRI::Pose_evidence& e = leading.pose->evidence;
+      const CRI::Lead_features of(leading);
       Logit::Features f;
-      f << leading.root, e.residual, std::sqrt(e.violations), leading.lead, leading.distinction, e.variety, 1;
+      f << of.fit, of.violations, of.lead, of.distinction, 1;
       return f;
     });
   }
@@ -329,7 +329,7 @@ struct Law_of_usual_any
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
     const auto& b = e.coefficients;
-    c.usual_any = {b[0], b[1], b[2], 0, 0, b[3], b[4], e.lapse};
+    c.usual_any = {b[0], b[1], b[2], b[3], b[4], e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
@@ -465,12 +465,13 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
       << how
       << "\nnamespace CGAL {\nnamespace Crude_registration {\nnamespace internal {\n\n"
          "// A linear law: slope root(evidence) + residual (RMS of the probes that agree, in tolerances) + violations "
-         "sqrt(probes in\n// free space a probe that agrees) + lead "
-         "(of the root over the mean of\n// the others) + distinction (log-odds of being the right one) + variety "
-         "(logarithm of the number of planes that agree) +\n// offset; lapse: the share of answers that obey no such "
-         "law.\n"
-         "struct Evidence_law\n{\n  double slope = 0, residual = 0, violations = 0, lead = 0, distinction "
-         "= 0, variety = 0, offset = 0, lapse = 0;\n};\n\n"
+         "sqrt(probes in\n// free space a probe that agrees) + variety (logarithm of the number of planes that agree) "
+         "+ offset; lapse: the share of\n// answers that obey no such law.\n"
+         "struct Evidence_law\n{\n  double slope = 0, residual = 0, violations = 0, variety = 0, offset = 0, lapse = "
+         "0;\n};\n\n"
+         "// The same of Lead_features.\n"
+         "struct Lead_law\n{\n  double fit = 0, violations = 0, lead = 0, distinction = 0, offset = 0, lapse = "
+         "0;\n};\n\n"
          "struct Evidence_coefficients\n{\n"
       << std::setprecision(5);
   const auto list = [&](const char* name, const double* values, std::size_t n) {
@@ -492,13 +493,14 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
   list("wrong_fit", c.wrong_fit, 12);
   const auto law = [&](const char* name, const CRI::Evidence_law& l) {
     out << "  Evidence_law " << name << " = {" << l.slope << ", " << l.residual << ", " << l.violations << ", "
-        << l.lead << ", " << l.distinction << ", " << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
+        << l.variety << ", " << l.offset << ", " << l.lapse << "};\n";
   };
   out << "  // The root is of n / (n + surfels) evidence a probe; n: of the scan with fewer.\n  double surfels = "
       << c.surfels << ";\n  // The logarithms of the weights of distinct poses, if one is right.\n";
   law("share", c.share);
   out << "  // The log-odds that one of them is right, and the same as chance is between any two scans.\n";
-  law("any", c.any);
+  out << "  Lead_law any = {" << c.any.fit << ", " << c.any.violations << ", " << c.any.lead << ", "
+      << c.any.distinction << ", " << c.any.offset << ", " << c.any.lapse << "};\n";
   law("usual_any", c.usual_any);
   out << std::setprecision(3)
       << "  // By how much the probabilities are off: the expected calibration error, in cross-validation.\n"

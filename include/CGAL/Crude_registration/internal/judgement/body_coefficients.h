@@ -27,7 +27,7 @@ namespace internal {
 struct Body_coefficients
 {
   // The log-odds that one of the distinct poses is right.
-  Evidence_law any = {0, -18.078, -128.94, 0, 0, 8.5639, 2.2314, 0.004688};
+  Evidence_law any = {0, -18.078, -128.94, 8.5639, 2.2314, 0.004688};
 };
 
 } // namespace internal

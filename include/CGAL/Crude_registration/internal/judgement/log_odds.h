@@ -38,7 +38,7 @@ inline double root_of_evidence(const Pose_evidence& evidence, double nats, const
 inline double law_of_evidence(const Evidence_law& law, double root, const Pose_evidence& evidence)
 {
   return law.slope * root + law.residual * evidence.residual + law.violations * std::sqrt(evidence.violations) +
-         law.offset;
+         law.variety * evidence.variety + law.offset;
 }
 
 // The logarithm of how probable a pose is beside others, if one of them is right; `nats`: of the evidence.
@@ -63,6 +63,12 @@ struct Leading_pose
   double distinction; // log-odds that it is the right one, if one of them is, or one without evidence
 };
 
+// The residual of what agrees by chance, which fills the tolerance evenly.
+inline double residual_of_chance()
+{
+  return 1 / std::sqrt(3.);
+}
+
 // `is_usual`: as chance is between any two scans.
 // \pre There is a pose.
 inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c)
@@ -72,7 +78,7 @@ inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_
     return root_of_evidence(p.evidence, is_usual ? p.evidence.usual : p.evidence.fuller, c);
   };
   Pose_evidence none;
-  none.residual = 1 / std::sqrt(3.);                                               // what fills the tolerance evenly
+  none.residual = residual_of_chance();
   double roots = 0, weights = std::exp(log_weight(none, 0, c) - best->log_weight); // of all others
   for (auto p = poses.begin(); p != poses.end(); ++p) {
     if (p == best) continue;
@@ -85,12 +91,25 @@ inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_
           std::log(((1 - lapse) * share + lapse / (n + 1)) / ((1 - lapse) * (1 - share) + lapse * n / (n + 1)))};
 }
 
-// The log-odds that any of them is right.
-inline double log_odds_of_any(const Evidence_law& law, const Leading_pose& leading)
+// What tells whether the leading pose is right, by chance as the pair tells it. Evidence counts by how far the residual
+// is from that of chance. How far others are behind counts by the variety of what agrees: where all lies in few planes,
+// one pose leaves the others behind by chance.
+struct Lead_features
 {
-  const Pose_evidence& evidence = leading.pose->evidence;
-  return law_of_evidence(law, leading.root, evidence) + law.lead * leading.lead +
-         law.distinction * leading.distinction + law.variety * evidence.variety;
+  double fit, violations, lead, distinction;
+
+  explicit Lead_features(const Leading_pose& leading)
+      : fit(leading.root * (std::max)(0., 1 - leading.pose->evidence.residual / residual_of_chance())),
+        violations(std::sqrt(leading.pose->evidence.violations)), lead(leading.lead * leading.pose->evidence.variety),
+        distinction(leading.distinction * leading.pose->evidence.variety)
+  {}
+};
+
+// The log-odds that any of them is right, by chance as the pair tells it.
+inline double log_odds_of_any(const Lead_law& law, const Lead_features& f)
+{
+  return law.fit * f.fit + law.violations * f.violations + law.lead * f.lead + law.distinction * f.distinction +
+         law.offset;
 }
 
 // Two questions, each with a law of its own: is one of the distinct poses right, and if so, which one? (A nested logit,
@@ -99,16 +118,16 @@ inline double log_odds_of_any(const Evidence_law& law, const Leading_pose& leadi
 //   P(any) = (1 - l) / (1 + exp(-x)) + l / 2,  P_k = P(any) ((1 - m) w_k / sum_j w_j + m / n).
 // x is of the leading pose: all poses were refined until they fit as well as they can, so that its lead tells how much
 // comes by chance between these two scans; what is found between scans that have no right pose is seldom one pose that
-// leaves all others behind; and few planes fit in many places. `is_usual`: as chance is between any two scans, whatever
-// the others are.
+// leaves all others behind. `is_usual`: as chance is between any two scans, whatever the others are.
 // \pre The variety of the leading pose is known.
 inline void share_probability(std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c = {})
 {
   if (poses.empty()) return;
   const Leading_pose first = leading_pose(poses, is_usual, c);
-  const Evidence_law& law = is_usual ? c.usual_any : c.any;
-  const double log_odds = log_odds_of_any(law, first),
-               any = (1 - law.lapse) / (1 + std::exp(-log_odds)) + law.lapse / 2, greatest = first.pose->log_weight;
+  const double log_odds = is_usual ? law_of_evidence(c.usual_any, first.root, first.pose->evidence)
+                                   : log_odds_of_any(c.any, Lead_features(first)),
+               lapse = is_usual ? c.usual_any.lapse : c.any.lapse,
+               any = (1 - lapse) / (1 + std::exp(-log_odds)) + lapse / 2, greatest = first.pose->log_weight;
   double sum = 0;
   for (const Judged_pose& p : poses) sum += std::exp(p.log_weight - greatest);
   for (Judged_pose& p : poses) {
