@@ -319,6 +319,58 @@ BOOST_AUTO_TEST_CASE(surfels_of_points_lie_on_edges_and_on_what_is_bent)
   BOOST_TEST(off_surface(ball, cell, true, from_ball) < 0.3 * off_surface(ball, cell, false, from_ball));
 }
 
+// How far off the places of surfels may be, against how far off they are on a sphere; and of a cube along the edges
+// alone.
+BOOST_AUTO_TEST_CASE(variance_of_known_surfaces)
+{
+  for (const double radius : {0.5, 20.}) {
+    const Reduced_scan scan = reduce_scan(generated::sphere(60, radius), no_sensor);
+    double squares = 0, told = 0;
+    const Vector_f middle = (scan.own_from_input(Vector(Vector::Zero()))).cast<float>();
+    for (const Surfel& s : scan.coarse.surfels) {
+      squares += std::pow(radius - double((s.position - middle).norm()), 2);
+      told += double(s.variance);
+    }
+    BOOST_TEST(told < 4 * squares, told << " and " << squares);
+    BOOST_TEST(told > squares / 4, told << " and " << squares);
+  }
+  Flat_mesh cube;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {-1, 1}) {
+      const auto n = std::int32_t(cube.points.size());
+      for (const int u : {-1, 1})
+        for (const int v : {-1, 1}) {
+          Vector corner;
+          corner[axis] = side;
+          corner[(axis + 1) % 3] = u;
+          corner[(axis + 2) % 3] = v;
+          cube.points.push_back(corner);
+        }
+      if (side > 0) {
+        cube.faces.push_back({n, n + 2, n + 1});
+        cube.faces.push_back({n + 1, n + 2, n + 3});
+      } else {
+        cube.faces.push_back({n, n + 1, n + 2});
+        cube.faces.push_back({n + 1, n + 3, n + 2});
+      }
+    }
+  const Reduced_scan scan = reduce_scan(cube, no_sensor);
+  int flat = 0, bent = 0;
+  for (const Surfel& s : scan.fine.surfels) {
+    const float axial = s.normal.cwiseAbs().maxCoeff();
+    const double deviation = std::sqrt(double(s.variance)) / double(scan.fine.spacing);
+    if (axial < 0.9f) {
+      ++bent;
+      BOOST_TEST(deviation > 0.03);
+    } else if (axial > 0.999999f) {
+      ++flat;
+      BOOST_TEST(deviation < 1e-3);
+    }
+  }
+  BOOST_TEST(flat > 1000);
+  BOOST_TEST(bent > 100);
+}
+
 BOOST_AUTO_TEST_CASE(curvatures_of_known_surfaces)
 {
   const auto median = [](const Surfel_level& level, float Surfel::*curvature) {

@@ -148,12 +148,13 @@ public:
   // A pose after refinement on the fine surfels.
   Pose refined(Pose pose) const
   {
-    const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing);
+    const float spacing = (std::max)(m_source.fine.spacing, m_target.fine.spacing),
+                variance = m_tolerance.distance * m_tolerance.distance;
     // The first steps are the longest, and fewer probes tell them.
     for (float reach : {2.f, 2.f, 2.f, 1.25f})
-      if (refine_step(m_few_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
+      if (refine_step(m_few_source_probes, m_target.fine, {reach * spacing, 0.8f, variance}, pose) < 6) break;
     for (float reach : {1.25f, 0.75f})
-      if (refine_step(m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f}, pose) < 6) break;
+      if (refine_step(m_fine_source_probes, m_target.fine, {reach * spacing, 0.8f, variance}, pose) < 6) break;
     return pose;
   }
 

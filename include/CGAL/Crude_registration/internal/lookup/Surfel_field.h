@@ -37,6 +37,7 @@ struct Surfel
   Vector_f normal;
   float minimal_curvature = 0;
   float maximal_curvature = 0;
+  float variance = 0; // of the place along the normal, as the surface bends within the surfel
 };
 
 // The nearest surfel to any place near the surface, by one look-up: voxels in blocks of 4 x 4 x 4, of which only those

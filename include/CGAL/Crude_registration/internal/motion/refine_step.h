@@ -34,6 +34,9 @@ struct Step
 {
   float reach;          // largest distance to the plane
   float minimal_cosine; // of the normals
+  // Of the heights of surfels that are flat: what bends within a surfel counts by how much more that one's height
+  // varies. 0: all count the same.
+  float variance = 0;
 };
 
 template <class Surfel_range>
@@ -41,7 +44,7 @@ int refine_step(const Surfel_range& source, const Surfel_level& target, const St
 {
   // The unknowns are a rotation about the middle of the correspondences, in units of their spread, and a translation.
   constexpr std::size_t most = 4096;
-  thread_local std::vector<std::array<float, 7>> rows; // p, n, residual
+  thread_local std::vector<std::array<float, 8>> rows; // p, n, residual, weight
   rows.clear();
   Vector_f middle = Vector_f::Zero();
   for (const Surfel& s : source) {
@@ -53,7 +56,8 @@ int refine_step(const Surfel_range& source, const Surfel_level& target, const St
     const float r = t.normal.dot(e);
     if (std::abs(r) > step.reach || (e - r * t.normal).squaredNorm() > 4 * step.reach * step.reach) continue;
     if ((pose.rotation * s.normal).dot(t.normal) < step.minimal_cosine) continue;
-    rows.push_back({p[0], p[1], p[2], t.normal[0], t.normal[1], t.normal[2], r});
+    const float weight = step.variance > 0 ? step.variance / (step.variance + s.variance + t.variance) : 1.f;
+    rows.push_back({p[0], p[1], p[2], t.normal[0], t.normal[1], t.normal[2], r, weight});
     middle += p;
     if (rows.size() == most) break;
   }
@@ -69,7 +73,7 @@ int refine_step(const Surfel_range& source, const Surfel_level& target, const St
   for (const auto& r : rows) {
     const Vector_f n(r[3], r[4], r[5]);
     equations.add(((Vector_f(r[0], r[1], r[2]) - middle) * inverse_unit).cross(n), n, -r[6],
-                  biweight(r[6] * r[6] * inverse_reach2));
+                  r[7] * biweight(r[6] * r[6] * inverse_reach2));
   }
   // A little of the identity: a thousandth of what the correspondences make it in the mean.
   const Eigen::Matrix<float, 6, 1> x = equations.solved(1e-3f * float(rows.size()) / 6);

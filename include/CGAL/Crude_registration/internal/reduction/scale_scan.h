@@ -26,7 +26,10 @@ namespace internal {
 inline void scale_level(float factor, Surfel_level& level)
 {
   level.spacing *= factor;
-  for (Surfel& s : level.surfels) s.position *= factor;
+  for (Surfel& s : level.surfels) {
+    s.position *= factor;
+    s.variance *= factor * factor;
+  }
   level.field.scale(factor);
 }
 
