@@ -12,6 +12,7 @@
 
 #include "statue_views.h"
 
+#include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
 #include <CGAL/Crude_registration/internal/judgement/evidence_coefficients.h>
 #include <CGAL/Crude_registration/internal/motion/twist.h>
 #include <CGAL/Crude_registration/judge_motion.h>
@@ -34,7 +35,6 @@
 #include <vector>
 
 using generated::Random;
-using Vector_6 = CR::internal::Vector_6;
 
 namespace {
 
@@ -104,19 +104,15 @@ Scatter scatter(const std::vector<View>& sources, const std::vector<View>& targe
   Scatter s{};
   const double n = double(errors.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const Eigen::LDLT<Matrix_6> solver(covariances[i]);
-    const Vector_6 d = errors[i] - mean;
-    s.about_mean += d.dot(solver.solve(d)) / (6 * (n - 1));
+    s.about_mean += whitened(covariances[i], errors[i] - mean).squaredNorm() / (6 * (n - 1));
   }
   const Vector middle = true_motion(sources[0], targets[0])(sources[0].centre);
   s.shift = (mean.tail<3>() + mean.head<3>().cross(middle)).norm() / sources[0].scan.spacing();
   s.degrees = mean.head<3>().norm() * 180 / pi;
-  const Eigen::LLT<Matrix_6> root(mean_covariance);
-  for (int k = 0; k < 6; ++k)
-    for (const Vector_6& e : errors) {
-      const Vector_6 white = root.matrixL().solve(Vector_6(e - mean));
-      s.by_axis[k] += white[k] * white[k] / (n - 1);
-    }
+  for (const Vector_6& e : errors) {
+    const Vector_6 white = whitened(mean_covariance, e - mean);
+    for (int k = 0; k < 6; ++k) s.by_axis[k] += white[k] * white[k] / (n - 1);
+  }
   return s;
 }
 
@@ -181,8 +177,8 @@ BOOST_AUTO_TEST_CASE(the_covariance_goes_with_the_frames)
   const Matrix_6 adjoint = CR::internal::adjoint(to_rigid_motion(back.transformation()));
   const Matrix_6 expected = adjoint * covariance_of(there) * adjoint.transpose();
   BOOST_TEST((covariance_of(back) - expected).norm() < 1e-9 * expected.norm());
-  // The positive eigenvalues of a covariance.
-  BOOST_TEST(Eigen::SelfAdjointEigenSolver<Matrix_6>(covariance_of(there)).eigenvalues()[0] > 0);
+  // Positive definite, as a covariance is.
+  BOOST_TEST(whitened(covariance_of(there), Vector_6::Ones()).allFinite());
 
   Random random(5);
   const Rigid_motion f = random.motion(3), g = random.motion(3);
@@ -221,8 +217,8 @@ BOOST_AUTO_TEST_CASE(free_axes_by_direction)
     BOOST_TEST(turns);
     BOOST_TEST(slides);
     // The covariance knows, too: its most uncertain motions keep the axis.
-    const Eigen::SelfAdjointEigenSolver<Matrix_6> eigen(covariance_of(result));
-    const Vector_6 most = eigen.eigenvectors().col(5);
+    BOOST_TEST(whitened(covariance_of(result), Vector_6::Ones()).allFinite());
+    const Vector_6 most = CR::internal::symmetric_eigen(covariance_of(result)).vectors.col(5);
     const Vector of_centre = most.tail<3>() + most.head<3>().cross(g.translation);
     if (most.head<3>().norm() > 0.1) BOOST_TEST(angle_of_lines(most.head<3>(), axis) < 3);
     if (of_centre.norm() > 0.1) BOOST_TEST(angle_of_lines(of_centre, axis) < 3);
