@@ -237,7 +237,7 @@ def test_the_bytes_are_as_documented(scan):
     data = scan.to_bytes()
     assert data[:8] == b"CRScan\r\n"
     version = int.from_bytes(data[8:12], "little")
-    assert version == 4
+    assert version == 5
     assert int.from_bytes(data[12:20], "little") == len(data) - 24
     assert data == with_checksum(data[:-4])
     assert data[20] == 1  # side

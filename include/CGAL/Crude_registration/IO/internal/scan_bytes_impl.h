@@ -38,7 +38,7 @@ inline constexpr char scan_magic[] = "CRScan\r\n";
 inline constexpr std::size_t scan_magic_size = sizeof scan_magic - 1;
 
 // To be raised whenever what is written changes, or what is made of a scan: a scan of another version is of no use.
-inline constexpr std::uint32_t scan_version = 4;
+inline constexpr std::uint32_t scan_version = 5;
 
 inline std::uint32_t checksum(const char* data, std::size_t size)
 {
@@ -97,10 +97,12 @@ public:
   template <class Surfel_>
   std::enable_if_t<std::is_same<std::remove_const_t<Surfel_>, Surfel>::value> operator()(Surfel_& s) const
   {
-    (*this)(s.position);
-    (*this)(s.normal);
-    (*this)(s.minimal_curvature);
-    (*this)(s.maximal_curvature);
+    auto& [position, normal, minimal_curvature, maximal_curvature, variance] = s;
+    (*this)(position);
+    (*this)(normal);
+    (*this)(minimal_curvature);
+    (*this)(maximal_curvature);
+    (*this)(variance);
   }
 
   // All members of a struct are named, so that a new one is not forgotten here: without it this does not compile.
@@ -171,7 +173,7 @@ inline bool is_consistent(const Surfel_level& l)
   const std::size_t n = l.surfels.size();
   const auto is_finite = [](const Surfel& s) {
     return s.position.allFinite() && s.normal.allFinite() && std::isfinite(s.minimal_curvature) &&
-           std::isfinite(s.maximal_curvature);
+           std::isfinite(s.maximal_curvature) && s.variance >= 0;
   };
   const auto is_surfel = [n](std::int32_t i) { return i >= 0 && std::size_t(i) < n; };
   return n > 0 && n <= Surfel_field::maximum_size && (l.borders.empty() || l.borders.size() == n) &&
