@@ -226,6 +226,7 @@ BOOST_AUTO_TEST_CASE(a_pose_in_doubt_is_refined_from_all_around_it)
     coefficients.share = {};
     coefficients.share.residual = -1;
     coefficients.any = {};
+    coefficients.any.fit = 1;
     coefficients.any.offset = offset;
     return Pose_judge(source, target, CR::internal::Execution::SEQUENTIAL, CR::internal::to_the_end(), coefficients);
   };
@@ -254,7 +255,13 @@ BOOST_AUTO_TEST_CASE(a_pose_in_doubt_is_refined_from_all_around_it)
     const auto best = again.distinct_poses().front();
     const double wanted_weight = offset > 0 ? ends[worst] : greatest;
     BOOST_TEST(best.log_weight == wanted_weight);
-    BOOST_TEST(std::abs(best.log_odds - offset) < 1e-12);
+    // The root of the evidence, and how far the residual is from that of probes that are anywhere in the tolerance.
+    const auto& e = best.evidence;
+    const double root = std::sqrt((std::max)(e.fuller, 0.) /
+                                  (1 + CR::internal::Evidence_coefficients().surfels / e.surfels)),
+                 fit = (std::max)(1 - std::sqrt(3.) * e.residual, 0.);
+    BOOST_TEST(root * fit > 0);
+    BOOST_TEST(std::abs(best.log_odds - offset - root * fit) < 1e-12);
     BOOST_TEST((best.proposed.rotation == proposals.poses.front().rotation));
   }
 }
@@ -437,6 +444,33 @@ BOOST_AUTO_TEST_CASE(poses_that_are_alike_share_what_one_of_them_would_have)
     BOOST_TEST(poses.front().log_odds > poses.back().log_odds);
     for (std::size_t i = 2; i < n; ++i) BOOST_TEST(poses[i].probability == poses[1].probability);
   }
+}
+
+// Without evidence, among few planes, and at the residual of what is anywhere in the tolerance there is nothing that
+// makes a pose probable.
+BOOST_AUTO_TEST_CASE(what_comes_by_chance_counts_nothing)
+{
+  std::vector<Judged_pose> poses(2);
+  CR::internal::Pose_evidence& e = poses[0].evidence;
+  const auto features = [&] { return CR::internal::Lead_features(CR::internal::leading_pose(poses, false, {})); };
+  poses[0].log_weight = 5;
+  e = {3, 2, 1, 0.1, 0.25, 1000, 1.5};
+  BOOST_TEST(features().fit > 0);
+  BOOST_TEST(features().violations == 0.5);
+  BOOST_TEST(features().lead > 0);
+  BOOST_TEST(features().distinction > 0);
+  e.residual = 1 / std::sqrt(3.);
+  BOOST_TEST(std::abs(features().fit) < 1e-12);
+  e.residual = 0.9;
+  BOOST_TEST(features().fit == 0);
+  e.variety = 0; // all in one plane
+  BOOST_TEST(features().lead == 0);
+  BOOST_TEST(features().distinction == 0);
+  e = {};
+  e.surfels = 1000;
+  e.variety = 5;
+  BOOST_TEST(features().fit == 0);
+  BOOST_TEST(features().lead == 0);
 }
 
 BOOST_AUTO_TEST_CASE(probabilities_of_poses_and_of_none_add_up_to_one)

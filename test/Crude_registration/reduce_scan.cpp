@@ -7,6 +7,7 @@
 #include <CGAL/Crude_registration/internal/reduction/group_samples.h>
 #include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
 #include <CGAL/Crude_registration/internal/reduction/sample_surface.h>
+#include <CGAL/Crude_registration/internal/reduction/scale_scan.h>
 #include <CGAL/Crude_registration/internal/simulation/Statue.h>
 
 #include <algorithm>
@@ -333,6 +334,9 @@ BOOST_AUTO_TEST_CASE(variance_of_known_surfaces)
     }
     BOOST_TEST(told < 4 * squares, told << " and " << squares);
     BOOST_TEST(told > squares / 4, told << " and " << squares);
+    const Reduced_scan larger = scaled(scan, 3);
+    for (std::size_t i = 0; i < scan.fine.surfels.size(); ++i)
+      BOOST_TEST_REQUIRE(larger.fine.surfels[i].variance == 9 * scan.fine.surfels[i].variance);
   }
   Flat_mesh cube;
   for (int axis = 0; axis < 3; ++axis)
