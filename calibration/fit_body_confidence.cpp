@@ -353,4 +353,5 @@ int main(int argc, char* argv[])
     std::cerr << "fit_body_confidence: " << e.what() << '\n';
     return EXIT_FAILURE;
   }
+  return 0;
 }

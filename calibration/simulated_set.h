@@ -22,9 +22,9 @@
 
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/transform.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/boost/graph/generators.h>
 
@@ -220,22 +220,30 @@ private:
     return result;
   }
 
+  // Its faces are convex.
+  static void add_in_triangles(Mesh& body, Mesh& mesh)
+  {
+    const std::vector<Mesh::Face_index> faces(body.faces().begin(), body.faces().end());
+    for (const auto f : faces)
+      for (auto h = body.halfedge(f); body.degree(body.face(h)) > 3;)
+        h = CGAL::Euler::split_face(h, body.next(body.next(h)), body);
+    CGAL::copy_face_graph(body, mesh);
+  }
+
   static void add_box(Mesh& mesh, double x, double y, double z, double dx, double dy, double dz)
   {
     const auto p = [&](int i, int j, int k) { return Kernel::Point_3(x + i * dx, y + j * dy, z + k * dz); };
     Mesh box;
     CGAL::make_hexahedron(p(0, 0, 0), p(1, 0, 0), p(1, 1, 0), p(0, 1, 0), p(0, 1, 1), p(0, 0, 1), p(1, 0, 1),
                           p(1, 1, 1), box);
-    CGAL::Polygon_mesh_processing::triangulate_faces(box);
-    CGAL::copy_face_graph(box, mesh);
+    add_in_triangles(box, mesh);
   }
 
   static void add_cylinder(Mesh& mesh, const Kernel::Point_3& base, double radius, double height)
   {
     Mesh prism;
     CGAL::make_regular_prism(64, prism, base, height, radius, true);
-    CGAL::Polygon_mesh_processing::triangulate_faces(prism);
-    CGAL::copy_face_graph(prism, mesh);
+    add_in_triangles(prism, mesh);
   }
 
   // Boxes and cylinders that stand on a plate and in each other.
