@@ -13,9 +13,8 @@ file(GLOB_RECURSE programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp
 # and says what the compiler says. What headers include of lower ones and of other libraries is
 # compiled once for those that include the same, and headers that include each other are one file: header_prefixes.cmake
 # says why this is as good as alone.
-find_program(CRUDE_REGISTRATION_HEADER_COMPILER NAMES clang++-14 clang++)
 find_program(CRUDE_REGISTRATION_CLANG_TIDY NAMES clang-tidy-14 clang-tidy)
-mark_as_advanced(CRUDE_REGISTRATION_HEADER_COMPILER CRUDE_REGISTRATION_CLANG_TIDY)
+mark_as_advanced(CRUDE_REGISTRATION_CLANG_TIDY)
 if(CRUDE_REGISTRATION_HEADER_COMPILER)
   set(header_compiler ${CRUDE_REGISTRATION_HEADER_COMPILER})
 else()
@@ -135,7 +134,7 @@ add_custom_target(headers_alone DEPENDS ${header_stamps})
 # warnings as errors.)
 # Some are compiled as one file, each in a namespace of its own, after all that they include, which takes longer than they.
 set(program_stamps "")
-set(programs_together 5)
+set(programs_together 10)
 if(TARGET benchmarks)
   get_target_property(names benchmarks MANUALLY_ADDED_DEPENDENCIES)
   set(number 0)
