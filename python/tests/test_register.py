@@ -209,15 +209,20 @@ def test_what_progress_raises_is_passed_on(views):
             cr.register(cr.Scan(views[0].image), cr.Scan(views[1].image), progress=progress)
 
 
+@pytest.fixture(scope="module")
+def big():
+    """A mesh whose preparation takes many times as long as a switch of threads."""
+    return cr.make_statue(resolution=200)
+
+
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there is no timer of signals")
-def test_a_signal_ends_a_run():
+def test_a_signal_ends_a_run(big):
     class Rang(Exception):
         pass
 
     def ring(*_):
         raise Rang
 
-    big = cr.make_statue(resolution=400)
     before = signal.signal(signal.SIGALRM, ring)
     try:
         for _ in range(3):
@@ -253,8 +258,7 @@ def test_ctrl_c_ends_a_registration(views):
         cr.register(*scans)  # nothing is left behind
 
 
-def test_other_threads_go_on(views):
-    big = cr.make_statue(resolution=300)
+def test_other_threads_go_on(big):
     counts = []
     done = threading.Event()
 
