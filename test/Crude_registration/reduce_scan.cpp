@@ -508,7 +508,7 @@ BOOST_AUTO_TEST_CASE(huge_faces_get_samples)
 // Needles do not get more samples than their area asks for, and the spacing remains one of the surface.
 BOOST_AUTO_TEST_CASE(needles_get_samples_by_their_area)
 {
-  for (int segments : {20, 100, 200}) {
+  for (int segments : {20, 100, 200, 2000, 20000}) {
     BOOST_TEST_CONTEXT(segments << " segments")
     {
       const Flat_mesh mesh = cylinder(segments, 0.1);

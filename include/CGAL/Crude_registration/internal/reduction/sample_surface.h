@@ -14,6 +14,7 @@
 
 // The surface of a mesh as samples with normals, whether its vertices are samples or the corners of large faces.
 
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/mesh/Flat_mesh.h>
@@ -27,6 +28,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
 #include <vector>
 
@@ -41,7 +43,20 @@ struct Oriented_samples
   std::vector<Vector_f> normals;
 };
 
-// Points about `distance` apart in rows along the longest edge of a face, at least one.
+// Numbers that the place alone gives, and another place others.
+inline Counter_random random_of_place(const Vector_f& place)
+{
+  std::uint64_t seed = 0;
+  for (int i = 0; i < 3; ++i) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &place[i], sizeof bits);
+    seed = Counter_random::mixed(seed ^ bits);
+  }
+  return Counter_random(seed);
+}
+
+// Points about `distance` apart in rows along the longest edge of a face, at least one. A face that is narrower has as
+// many as its area asks for, anywhere on it: those of many side by side lie evenly, and rows would not.
 inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face, const Rigid_motion& own,
                         double distance, Oriented_samples& samples)
 {
@@ -59,16 +74,35 @@ inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face,
   if (normal.isZero() || !(length > 0)) return;
   constexpr double most = 2000; // points in a row, rows
   const auto count = [&](double l) { return int(std::ceil((std::min)((std::max)(l / distance, 1.), most))); };
-  const int rows = count(twice_area.norm() / length);
+  const double width = twice_area.norm() / length;
+  const auto add = [&](double up, double along) {
+    samples.points.push_back(own(Vector(a + along * (b - a) + up * (c - a))).cast<float>());
+    samples.normals.push_back((own.rotation * normal).cast<float>());
+  };
+  if (width < distance) {
+    const int points = count(0.5 * width * length / distance);
+    const Counter_random random = random_of_place(own(Vector((a + b + c) / 3)).cast<float>());
+    for (int j = 0; j < points; ++j) {
+      const double root = std::sqrt((j + random.uniform(0)) / points); // evenly over the triangle
+      add(1 - root, root * random.uniform(std::uint64_t(j) + 1));
+    }
+    return;
+  }
+  const int rows = count(width);
   for (int i = 0; i < rows; ++i) {
     const double up = (i + 0.5) / rows;
     const int points = count((1 - up) * length);
-    for (int j = 0; j < points; ++j) {
-      const double along = (1 - up) * (j + 0.5) / points;
-      samples.points.push_back(own(Vector(a + along * (b - a) + up * (c - a))).cast<float>());
-      samples.normals.push_back((own.rotation * normal).cast<float>());
-    }
+    for (int j = 0; j < points; ++j) add(up, (1 - up) * (j + 0.5) / points);
   }
+}
+
+// A face is as large as it is long: the right isosceles triangle of its longest side, which two faces of a grid are, or
+// more. The vertices of slivers, which are small, tell their surface as little as those of large faces do.
+inline double area_by_length(const Flat_mesh& mesh, const std::array<std::int32_t, 3>& face, double area)
+{
+  const Vector &a = mesh.points[std::size_t(face[0])], &b = mesh.points[std::size_t(face[1])],
+               &c = mesh.points[std::size_t(face[2])];
+  return (std::max)({area, (b - a).squaredNorm() / 4, (c - b).squaredNorm() / 4, (a - c).squaredNorm() / 4});
 }
 
 // The vertices of the faces, as a scan's samples are; where the faces are so large that their vertices do not tell the
@@ -82,8 +116,8 @@ inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vecto
   const Matrix_f rotation = own.rotation.cast<float>();
   const double area = std::accumulate(areas.begin(), areas.end(), 0.);
   double area_of_large_faces = 0;
-  for (const double a : areas)
-    if (a > area / 1000) area_of_large_faces += a;
+  for (std::size_t f = 0; f < areas.size(); ++f)
+    if (area_by_length(mesh, mesh.faces[f], areas[f]) > area / 1000) area_of_large_faces += areas[f];
   if (sensor.kind == Flat_sensor::UNKNOWN && area_of_large_faces > 0.2 * area) {
     for (const auto& f : mesh.faces) {
       control.check();
