@@ -224,6 +224,18 @@ BOOST_AUTO_TEST_CASE(the_unit_does_not_matter)
     }
 }
 
+BOOST_AUTO_TEST_CASE(the_unit_does_not_matter_to_needles)
+{
+  Flat_mesh mesh = cylinder(2000, 0.1); // without its symmetry, so that it has a frame
+  for (Vector& p : mesh.points) {
+    const double wider = 1 + 5 * p.x() + 30 * p.x() * p.y();
+    p = Vector((1.5 * p.x() * wider + 0.2) * (1 - 0.4 * p.z()), p.y() * wider * (1 - 0.4 * p.z()), p.z());
+  }
+  const Reduced_scan scan = reduce_scan(mesh, no_sensor);
+  for (double unit : {1e-9, 1e-3, 0.3048, 1e3, 1e9})
+    check_same(scan, reduce_scan(generated::moved(mesh, Rigid_motion(), unit), no_sensor), unit, 4);
+}
+
 BOOST_AUTO_TEST_CASE(the_order_of_vertices_and_faces_does_not_matter)
 {
   for (const Case& c : scans()) BOOST_TEST_CONTEXT(c.name)

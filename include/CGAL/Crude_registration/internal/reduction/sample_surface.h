@@ -28,7 +28,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -43,15 +43,12 @@ struct Oriented_samples
   std::vector<Vector_f> normals;
 };
 
-// Numbers that the place alone gives, and another place others.
-inline Counter_random random_of_place(const Vector_f& place)
+// Numbers that a place alone gives, in cells, and another cell others. (Not by its last bits, which the unit of length
+// changes.)
+inline Counter_random random_of_place(const Vector& place)
 {
   std::uint64_t seed = 0;
-  for (int i = 0; i < 3; ++i) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &place[i], sizeof bits);
-    seed = Counter_random::mixed(seed ^ bits);
-  }
+  for (int i = 0; i < 3; ++i) seed = Counter_random::mixed(seed ^ std::uint64_t(std::llround(place[i])));
   return Counter_random(seed);
 }
 
@@ -64,8 +61,11 @@ inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face,
     return (mesh.points[std::size_t(face[std::size_t((i + 1) % 3)])] - mesh.points[std::size_t(face[std::size_t(i)])])
         .squaredNorm();
   };
-  const int longest = squared_length(0) >= squared_length(1) ? (squared_length(0) >= squared_length(2) ? 0 : 2)
-                                                             : (squared_length(1) >= squared_length(2) ? 1 : 2);
+  // Of two sides that are as long but for rounding the first.
+  constexpr double shorter = 1 - double(std::numeric_limits<float>::epsilon());
+  int longest = 0;
+  for (int i : {1, 2})
+    if (shorter * squared_length(i) > squared_length(longest)) longest = i;
   std::rotate(face.begin(), face.begin() + longest, face.end());
   const Vector &a = mesh.points[std::size_t(face[0])], &b = mesh.points[std::size_t(face[1])],
                &c = mesh.points[std::size_t(face[2])];
@@ -81,7 +81,8 @@ inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face,
   };
   if (width < distance) {
     const int points = count(0.5 * width * length / distance);
-    const Counter_random random = random_of_place(own(Vector((a + b + c) / 3)).cast<float>());
+    constexpr double cells = 1024; // a sample's distance: smaller than faces are narrow, larger than rounding
+    const Counter_random random = random_of_place(own(Vector((a + b + c) / 3)) * (cells / distance));
     for (int j = 0; j < points; ++j) {
       const double root = std::sqrt((j + random.uniform(0)) / points); // evenly over the triangle
       add(1 - root, root * random.uniform(std::uint64_t(j) + 1));
