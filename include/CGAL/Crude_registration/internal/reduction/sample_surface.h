@@ -81,10 +81,13 @@ inline void sample_face(const Flat_mesh& mesh, std::array<std::int32_t, 3> face,
   };
   if (width < distance) {
     const int points = count(0.5 * width * length / distance);
-    constexpr double cells = 1024; // a sample's distance: smaller than faces are narrow, larger than rounding
+    // Cells in a sample's distance, far larger than rounding: floats leave 15 bits below it, as it is some 2^-9 of the
+    // size.
+    constexpr double cells = 1024;
     const Counter_random random = random_of_place(own(Vector((a + b + c) / 3)) * (cells / distance));
+    const double first = random.uniform(0);
     for (int j = 0; j < points; ++j) {
-      const double root = std::sqrt((j + random.uniform(0)) / points); // evenly over the triangle
+      const double root = std::sqrt((j + first) / points); // evenly over the triangle
       add(1 - root, root * random.uniform(std::uint64_t(j) + 1));
     }
     return;
@@ -106,20 +109,26 @@ inline double area_by_length(const Flat_mesh& mesh, const std::array<std::int32_
   return (std::max)({area, (b - a).squaredNorm() / 4, (c - b).squaredNorm() / 4, (a - c).squaredNorm() / 4});
 }
 
-// The vertices of the faces, as a scan's samples are; where the faces are so large that their vertices do not tell the
-// surface (a CAD model), points spread evenly over the faces, about `distance` from each other. Samples that are seen
-// at a grazing angle lie on the faces that bridge a depth edge: they are left out.
+// Whether the faces are so large that their vertices do not tell the surface (a CAD model).
+inline bool are_faces_large(const Flat_mesh& mesh, const std::vector<double>& areas)
+{
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.);
+  double area_of_large_faces = 0;
+  for (std::size_t f = 0; f < areas.size(); ++f)
+    if (area_by_length(mesh, mesh.faces[f], areas[f]) > area / 1000) area_of_large_faces += areas[f];
+  return area_of_large_faces > 0.2 * area;
+}
+
+// The vertices of the faces, as a scan's samples are; where the faces are large, points spread evenly over them, about
+// `distance` from each other. Samples that are seen at a grazing angle lie on the faces that bridge a depth edge: they
+// are left out.
 inline Oriented_samples samples_of_faces(const Flat_mesh& mesh, const std::vector<double>& areas,
                                          const Rigid_motion& own, const Flat_sensor& sensor, double distance,
                                          Run_control& control)
 {
   Oriented_samples samples;
   const Matrix_f rotation = own.rotation.cast<float>();
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.);
-  double area_of_large_faces = 0;
-  for (std::size_t f = 0; f < areas.size(); ++f)
-    if (area_by_length(mesh, mesh.faces[f], areas[f]) > area / 1000) area_of_large_faces += areas[f];
-  if (sensor.kind == Flat_sensor::UNKNOWN && area_of_large_faces > 0.2 * area) {
+  if (sensor.kind == Flat_sensor::UNKNOWN && are_faces_large(mesh, areas)) {
     for (const auto& f : mesh.faces) {
       control.check();
       sample_face(mesh, f, own, distance, samples);
