@@ -16,12 +16,15 @@
 
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
 
+#include <boost/config.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -73,17 +76,13 @@ public:
     }
     m_block_of.assign(std::size_t(m_blocks[0]) * std::size_t(m_blocks[1]) * std::size_t(m_blocks[2]), 0);
     const float reach_in_voxels = reach * m_scale, reach2 = reach_in_voxels * reach_in_voxels;
-    // The bits of the squared distance (in the order of the distances, as they are positive) before those of the
-    // surfel: the least is the nearest, and the first of equally near ones.
-    const auto key = [](float squared_distance, std::uint64_t surfel) {
-      std::uint32_t bits;
-      std::memcpy(&bits, &squared_distance, sizeof bits);
-      return std::uint64_t(bits) << 16 | surfel;
-    };
-    const std::uint64_t out_of_reach = key(reach2, empty);
-    std::vector<std::uint64_t> keys(64, out_of_reach);
-    std::vector<float> z_distances; // squared, of the voxels of each block that is met
+    Nearest out_of_reach;
+    std::fill_n(out_of_reach.distances, 64, bits_of(reach2) + 1);
+    std::fill_n(out_of_reach.surfels, 64, std::int32_t(empty));
+    std::vector<Nearest> blocks(1, out_of_reach);
+    std::vector<std::array<float, 4>> z_distances; // squared, of the voxels of each block that is met
     for (std::size_t i = 0; i < surfels.size(); ++i) {
+      const auto surfel = std::int32_t(i);
       const Vector_f p = (surfels[i].position - m_low) * m_scale;
       if (!((p.array() >= 0).all() && (p.array() < m_size.array()).all())) continue; // far away, or not a number
       int from[3], to[3];
@@ -94,31 +93,36 @@ public:
       // The voxels of a block follow each other along z: four at a time, without a branch.
       from[2] &= ~3;
       z_distances.clear();
-      for (int z = from[2]; z <= (to[2] | 3); ++z) {
-        const float dz = float(z) + 0.5f - p[2];
-        z_distances.push_back(dz * dz);
+      for (int z = from[2]; z <= to[2]; z += 4) {
+        std::array<float, 4> dz;
+        for (int k = 0; k < 4; ++k) dz[std::size_t(k)] = float(z + k) + 0.5f - p[2];
+        for (float& d : dz) d *= d;
+        z_distances.push_back(dz);
       }
       for (int x = from[0]; x <= to[0]; ++x) {
         const float dx = float(x) + 0.5f - p[0];
         for (int y = from[1]; y <= to[1]; ++y) {
           const float dy = float(y) + 0.5f - p[1], dxy = dx * dx + dy * dy;
           if (dxy > reach2) continue;
-          for (int z = from[2]; z <= to[2]; z += 4) {
-            const float* const dz = z_distances.data() + (z - from[2]);
+          std::int32_t* block = m_block_of.data() + block_index(x, y, from[2]);
+          const std::size_t first = voxel_index(x, y, 0);
+          for (const std::array<float, 4>& dz : z_distances) {
+            std::int32_t& here = *block++;
             if (dxy + (std::min)((std::min)(dz[0], dz[1]), (std::min)(dz[2], dz[3])) > reach2) continue;
-            std::int32_t& block = m_block_of[block_index(x, y, z)];
-            if (block == 0) {
-              block = std::int32_t(keys.size() / 64);
-              keys.resize(keys.size() + 64, out_of_reach);
+            if (here == 0) {
+              here = std::int32_t(blocks.size());
+              blocks.push_back(out_of_reach);
             }
-            std::uint64_t* const voxels = keys.data() + std::size_t(block) * 64 + voxel_index(x, y, z);
-            for (std::size_t k = 0; k < 4; ++k) voxels[k] = (std::min)(voxels[k], key(dxy + dz[k], i));
+            blocks[std::size_t(here)].offer(surfel, first, dxy, dz);
           }
         }
       }
     }
-    m_voxels.resize(keys.size());
-    std::transform(keys.begin(), keys.end(), m_voxels.begin(), [](std::uint64_t k) { return std::uint16_t(k); });
+    m_voxels.clear();
+    m_voxels.reserve(64 * blocks.size());
+    for (const Nearest& b : blocks)
+      std::transform(b.surfels, b.surfels + 64, std::back_inserter(m_voxels),
+                     [](std::int32_t i) { return std::uint16_t(i); });
   }
 
   // The index of the surfel nearest to the centre of the voxel of `p`, or `none`. Without a branch: which voxels are
@@ -170,6 +174,33 @@ public:
 private:
   static constexpr std::uint16_t empty = 65535;
   static constexpr int maximum_blocks = 256;
+
+  // In the order of the numbers, as far as these are positive.
+  static std::int32_t bits_of(float x)
+  {
+    std::int32_t bits;
+    static_assert(sizeof bits == sizeof x, "float is a number of 32 bits");
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+  }
+
+  // What is known of a block while it is built: the nearest surfels, and the bits of their squared distances. The first
+  // of equally near ones is the nearest: a later one has to be nearer.
+  struct Nearest
+  {
+    std::int32_t distances[64];
+    std::int32_t surfels[64];
+
+    // A surfel to four voxels. (By itself it is compiled to instructions for four of them, within the loops not.)
+    BOOST_NOINLINE void offer(std::int32_t surfel, std::size_t voxel, float dxy, const std::array<float, 4>& dz)
+    {
+      std::int32_t bits[4], is_nearer[4]; // all bits or none
+      for (std::size_t k = 0; k < 4; ++k) bits[k] = bits_of(dxy + dz[k]);
+      for (std::size_t k = 0; k < 4; ++k) is_nearer[k] = (bits[k] - distances[voxel + k]) >> 31;
+      for (std::size_t k = 0; k < 4; ++k) distances[voxel + k] ^= (distances[voxel + k] ^ bits[k]) & is_nearer[k];
+      for (std::size_t k = 0; k < 4; ++k) surfels[voxel + k] ^= (surfels[voxel + k] ^ surfel) & is_nearer[k];
+    }
+  };
 
   static float median(const std::vector<Surfel>& surfels, int axis)
   {

@@ -89,19 +89,7 @@ inline Surfel_level group_samples(const std::vector<Vector_f>& points, const std
                                   const std::vector<float>& weights, float cell, Run_control& control,
                                   bool has_edges = false)
 {
-  std::vector<Cell_item> items(points.size());
-  const float scale = 1 / cell;
-  constexpr float limit = float(1 << 20) - 1;
-  const auto coordinate = [&](float x) {
-    return std::uint64_t(std::int64_t(std::floor((std::min)((std::max)(x * scale, -limit), limit))) + (1 << 20));
-  };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    control.check(i);
-    items[i] = {(coordinate(points[i][0]) << 42) | (coordinate(points[i][1]) << 21) | coordinate(points[i][2]),
-                std::uint32_t(i)};
-  }
-  sort_cell_items(items, control);
-
+  const std::vector<Cell_item> items = items_by_cells(points, cell, control);
   Surfel_level level;
   level.spacing = cell;
   const auto emit = [&](const Samples_of_cell& s) {

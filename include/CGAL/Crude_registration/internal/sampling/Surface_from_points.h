@@ -107,22 +107,6 @@ private:
       }
   }
 
-  // the points by their cells
-  std::vector<Cell_item> cells(double size) const
-  {
-    std::vector<Cell_item> result;
-    result.reserve(m_local.size());
-    for (const Vector& p : m_local) {
-      m_control.check(result.size());
-      std::uint64_t key = 0;
-      for (int i = 0; i < 3; ++i)
-        key = key << 21 | static_cast<std::uint64_t>(std::floor(p[i] / size) + double(1 << 20));
-      result.push_back({key, static_cast<std::uint32_t>(result.size())});
-    }
-    sort_cell_items(result, m_control);
-    return result;
-  }
-
   static bool is_same_cell(const Cell_item& a, const Cell_item& b) { return a.key == b.key; }
 
   // the size of cells of which about `count` hold points: on a surface their number falls with the square of the size
@@ -132,7 +116,7 @@ private:
     const double smallest = m_extent / double(1 << 20); // 21 bits an axis
     double size = (std::max)(smallest, m_extent / std::sqrt(wanted));
     for (int i = 0; i < 8; ++i) {
-      std::vector<Cell_item> items = cells(size);
+      std::vector<Cell_item> items = items_by_cells(m_local, size, m_control);
       const double got = static_cast<double>(std::unique(items.begin(), items.end(), is_same_cell) - items.begin());
       if (std::abs(got - wanted) < 0.05 * wanted) break;
       size = (std::max)(smallest, size * std::sqrt(got / wanted));
@@ -149,7 +133,7 @@ private:
       return m_points;
     }
     m_spacing = cell_size(largest);
-    const std::vector<Cell_item> items = cells(m_spacing);
+    const std::vector<Cell_item> items = items_by_cells(m_local, m_spacing, m_control);
     std::vector<Vector> means;
     for (std::size_t i = 0; i < n;) {
       m_control.check(means.size());
