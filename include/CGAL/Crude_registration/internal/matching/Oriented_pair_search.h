@@ -22,7 +22,7 @@
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 #include <CGAL/Crude_registration/internal/matching/Matched_pair.h>
-#include <CGAL/Crude_registration/internal/matching/extents.h>
+#include <CGAL/Crude_registration/internal/matching/Oriented_pair_parameters.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <algorithm>
@@ -30,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,35 +38,6 @@
 namespace CGAL {
 namespace Crude_registration {
 namespace internal {
-
-// One round of the search.
-struct Oriented_pair_round
-{
-  std::vector<double> scales; // lengths of the pairs, from 0, the least, to 1, the greatest; the longest first
-  int origins;                // vertices V of the source
-  int pairs;                  // vertices v1 for each of them and each scale
-  std::size_t looks;          // at most that many pairs (C, c1) of the target are looked at
-  int curvature_tolerance;    // in 1/128 of the inverse spacing, for scans without noise
-  std::size_t kept;           // distinct candidates that are proposed
-  std::size_t judged;         // those of them that are worth a close look
-};
-
-struct Oriented_pair_parameters
-{
-  double minimum_extent = 0, maximum_extent = default_maximum_extent; // bounds of the lengths, in shares of M
-  std::vector<Oriented_pair_round> rounds = {{{8. / 15}, 300, 5, 80000, 14, 32, 8},
-                                             {{8. / 15, 1. / 3}, 800, 5, 200000, 14, 60, 8},
-                                             {{5. / 6, 8. / 15, 1. / 3, 0.2}, 2000, 4, 1200000, 20, 300, 16}};
-  float source_half_width = 0.3f; // of the lengths, in spacings
-  float target_half_width = 0.7f;
-  float distance = 0.8f; // of a witness to the plane of its counterpart, in spacings
-  float minimal_cosine = 0.75f;
-  int witnesses = 16, witnesses_needed = 9;
-  float witness_reach = 0.22f; // of the witnesses from the middle of the pair, in shares of M
-
-  // The length of a scale, as a share of M.
-  float length(double scale) const { return float(minimum_extent + scale * (maximum_extent - minimum_extent)); }
-};
 
 // Proposes poses by pairs of oriented points: pairs (V, v1) of the source's surfels, with their normals and curvatures,
 // find pairs (C, c1) of the target's in an index (the sphere of section 6 of the paper, and the turn on the circle,
@@ -199,7 +171,7 @@ private:
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   }
 
-  // Pairs (V, v1) of the source for the next origins, the rarest in the target first: they say the most for each look.
+  // Pairs (V, v1) of the source for the next origins.
   std::vector<Source_pair> choose_pairs(const Oriented_pair_round& round)
   {
     const Stage_timer timer(m_pairs);
@@ -238,10 +210,37 @@ private:
       }
     }
     if (m_next_origin == m_origins.size()) m_next_origin = 0;
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Source_pair& a, const Source_pair& b) { return a.count < b.count; });
     m_pairs.count += pairs.size();
     return pairs;
+  }
+
+  // Those that the round's looks suffice for, as many for each scale. The rarest in the target say the most for each
+  // look. But where the scans have little in common, what is rarest in the target is what it has not seen: so a round
+  // that is to find such scans, too, looks at pairs at random as well.
+  static std::vector<const Source_pair*> affordable(const std::vector<Source_pair>& pairs,
+                                                    const Oriented_pair_round& round)
+  {
+    std::vector<const Source_pair*> chosen;
+    std::vector<bool> is_chosen(pairs.size(), false);
+    const auto choose = [&](const std::vector<std::int32_t>& order, double share) {
+      std::vector<std::size_t> looks(round.scales.size(),
+                                     std::size_t(share * double(round.looks)) / round.scales.size());
+      for (const std::int32_t i : order) {
+        const Source_pair& p = pairs[std::size_t(i)];
+        if (is_chosen[std::size_t(i)] || looks[p.scale] < p.count) continue;
+        looks[p.scale] -= p.count;
+        is_chosen[std::size_t(i)] = true;
+        chosen.push_back(&p);
+      }
+    };
+    std::vector<std::int32_t> order(pairs.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
+      return pairs[std::size_t(i)].count < pairs[std::size_t(j)].count;
+    });
+    choose(order, 1 - round.at_random);
+    if (round.at_random > 0) choose(shuffled(pairs.size(), 2), round.at_random);
+    return chosen;
   }
 
   // A surfel of the source in the frame of a pair: pair_frame() about the pair's middle.
@@ -302,18 +301,12 @@ private:
     std::vector<Candidate> candidates;
   };
 
-  // The candidates of the pairs, in their order, as far as the round's number of looks goes.
+  // The candidates of the pairs, as far as the round's number of looks goes.
   std::vector<Candidate> match(const std::vector<Source_pair>& pairs, const Oriented_pair_round& round,
                                Run_control& control)
   {
     const Stage_timer timer(m_looks);
-    std::vector<std::size_t> looks(round.scales.size(), round.looks / round.scales.size());
-    std::vector<const Source_pair*> chosen;
-    for (const Source_pair& p : pairs) {
-      if (looks[p.scale] < p.count) continue;
-      looks[p.scale] -= p.count;
-      chosen.push_back(&p);
-    }
+    const std::vector<const Source_pair*> chosen = affordable(pairs, round);
     // In blocks that are the same whatever the number of threads, and that hold no more matches than are wanted: of
     // planes and spheres a single pair has thousands.
     constexpr std::size_t block = 128;
