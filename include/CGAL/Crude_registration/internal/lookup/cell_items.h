@@ -48,7 +48,7 @@ inline void sort_cell_items(std::vector<Cell_item>& items, Run_control& control)
   std::size_t steps = 0;
   for (unsigned shift = 0; shift < 64 && different >> shift != 0; shift += bits_of_digit) {
     if ((different >> shift) % digits == 0) continue;
-    std::array<std::size_t, digits + 1> place{};
+    std::array<std::uint32_t, digits + 1> place{};
     for (const Cell_item& item : items) ++place[(item.key >> shift) % digits + 1];
     std::partial_sum(place.begin(), place.end(), place.begin());
     for (const Cell_item& item : items) {
