@@ -34,13 +34,13 @@ struct Cell_item
   std::uint32_t index;
 };
 
-// By cells; items that are in the order of their indices stay so within a cell. By the digits of the keys, the lowest
-// first, but for those that all have in common. (Five times as fast as boost::sort::spreadsort, which compares items as
-// soon as there are few, and in which this takes a seventh of the time of preparing a scan.) \throws
-// Run_control::Stopped
+// Sorts items that are in the order of their indices by cells; those of a cell stay in that order. By the digits of the
+// keys, the lowest first, but for those that all have in common: five times as fast as boost::sort::spreadsort, which
+// compares items as soon as there are few, and took a seventh of the time of preparing a scan.
+// \throws Run_control::Stopped
 inline void sort_cell_items(std::vector<Cell_item>& items, Run_control& control)
 {
-  constexpr unsigned bits_of_digit = 12; // whose counters fit the fastest memory
+  constexpr unsigned bits_of_digit = 12; // counters of 16 kB, half of a usual first-level cache
   constexpr std::size_t digits = std::size_t(1) << bits_of_digit;
   std::uint64_t different = 0;
   for (const Cell_item& item : items) different |= item.key ^ items.front().key;
@@ -60,8 +60,9 @@ inline void sort_cell_items(std::vector<Cell_item>& items, Run_control& control)
 }
 
 // Points by the cells of a grid whose cells meet at the origin: by the x of the cells, by y, by z. Cells more than 2^20
-// away from the origin are one. Keys have no more bits than tell the cells apart that there are: they are sorted by
-// bits.
+// away from the origin are one. As they are sorted by bits, keys have no more of these than tell the cells apart that
+// there are.
+// \throws Run_control::Stopped
 template <class Point>
 std::vector<Cell_item> items_by_cells(const std::vector<Point>& points, typename Point::Scalar cell,
                                       Run_control& control)
