@@ -210,7 +210,7 @@ Calibration cross_validation(const std::vector<Choice>& choices, const Laws& all
     for (const Choice& choice : choices) {
       if (choice.part != part) continue;
       std::vector<CRI::Judged_pose> poses = judged(choice, laws);
-      CRI::share_probability(poses, true, laws);
+      CRI::share_probability(poses, true, true, laws);
       const auto best = std::max_element(poses.begin(), poses.end(),
                                          [](const auto& a, const auto& b) { return a.probability < b.probability; });
       const bool is_right = choice.is_right[std::size_t(best - poses.begin())];

@@ -229,6 +229,7 @@ struct Choice
   std::vector<CRI::Pose_evidence> poses;
   int right;
   std::size_t setting, search; // the number of the search, rounds of which follow each other
+  bool is_last = false;        // of them
 };
 
 std::vector<Choice> choices_of(const Generation& generation, const Coefficients& coefficients)
@@ -245,10 +246,14 @@ std::vector<Choice> choices_of(const Generation& generation, const Coefficients&
       if (choice.right < 0 && pair.truth && is_right(p.pose, *pair.truth, *pair.source))
         choice.right = int(choice.poses.size());
       choice.poses.push_back(p.evidence);
-      choice.poses.back().variety = judge.variety(p.pose); // by other coefficients another one may lead
+      // By other coefficients another one may lead.
+      choice.poses.back().variety = judge.variety(p.pose);
+      choice.poses.back().spread = judge.spread(p.pose);
     }
     if (!choice.poses.empty()) choices.push_back(choice);
   });
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    choices[i].is_last = i + 1 == choices.size() || choices[i + 1].search != choices[i].search;
   return choices;
 }
 
@@ -290,14 +295,15 @@ struct Law_of_shares
   }
 };
 
-// Of each choice whether any of the poses is right, by `features`, a function of the leading one.
+// Of each choice whether any of the poses is right, by `features`, a function of the leading one and of the choice.
 template <class Logit, class Features>
 Logit logit_of_any(const std::vector<Choice>& choices, const Coefficients& c, bool is_usual, const Features& features)
 {
   Logit result;
   for (const Choice& choice : choices) {
     const std::vector<CRI::Judged_pose> poses = judged(choice, c);
-    result.add_choice({features(CRI::leading_pose(poses, is_usual, c))}, choice.right < 0 ? -1 : 0, choice.setting);
+    result.add_choice({features(CRI::leading_pose(poses, is_usual, c), choice)}, choice.right < 0 ? -1 : 0,
+                      choice.setting);
   }
   return result;
 }
@@ -305,18 +311,18 @@ Logit logit_of_any(const std::vector<Choice>& choices, const Coefficients& c, bo
 // The law of whether any of the poses is right.
 struct Law_of_any
 {
-  using Logit = benchmark_tools::Conditional_logit<5>;
+  using Logit = benchmark_tools::Conditional_logit<7>;
   static void set(const Logit::Estimate& e, Coefficients& c)
   {
     const auto& b = e.coefficients;
-    c.any = {b[0], b[1], b[2], b[3], b[4], e.lapse};
+    c.any = {b[0], b[1], b[2], b[3], b[4], b[5], b[6], e.lapse};
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
-    return logit_of_any<Logit>(choices, c, false, [](const CRI::Leading_pose& leading) {
-      const CRI::Lead_features of(leading);
+    return logit_of_any<Logit>(choices, c, false, [](const CRI::Leading_pose& leading, const Choice& choice) {
+      const CRI::Lead_features of(leading, choice.is_last);
       Logit::Features f;
-      f << of.fit, of.violations, of.lead, of.distinction, 1;
+      f << of.fit, of.violations, of.lead, of.distinction, of.spread, of.tried_all, 1;
       return f;
     });
   }
@@ -333,7 +339,7 @@ struct Law_of_usual_any
   }
   static Logit logit(const std::vector<Choice>& choices, const Coefficients& c)
   {
-    return logit_of_any<Logit>(choices, c, true, [](const CRI::Leading_pose& leading) {
+    return logit_of_any<Logit>(choices, c, true, [](const CRI::Leading_pose& leading, const Choice&) {
       const CRI::Pose_evidence& e = leading.pose->evidence;
       Logit::Features f;
       f << leading.root, e.residual, std::sqrt(e.violations), e.variety, 1;
@@ -390,7 +396,7 @@ struct Answer
 Answer answer(const Choice& choice, const Coefficients& c)
 {
   std::vector<CRI::Judged_pose> poses = judged(choice, c);
-  CRI::share_probability(poses, false, c);
+  CRI::share_probability(poses, false, choice.is_last, c);
   const auto best =
       std::max_element(poses.begin(), poses.end(), [](const CRI::Judged_pose& a, const CRI::Judged_pose& b) {
         return a.probability < b.probability;
@@ -470,8 +476,10 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
          "struct Evidence_law\n{\n  double slope = 0, residual = 0, violations = 0, variety = 0, offset = 0, lapse = "
          "0;\n};\n\n"
          "// The same of Lead_features.\n"
-         "struct Lead_law\n{\n  double fit = 0, violations = 0, lead = 0, distinction = 0, offset = 0, lapse = "
-         "0;\n};\n\n"
+         "struct Lead_law\n{\n"
+         "  double fit = 0, violations = 0, lead = 0, distinction = 0, spread = 0, tried_all = 0, offset = 0, lapse = "
+         "0;\n"
+         "};\n\n"
          "struct Evidence_coefficients\n{\n"
       << std::setprecision(5);
   const auto list = [&](const char* name, const double* values, std::size_t n) {
@@ -500,7 +508,8 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
   law("share", c.share);
   out << "  // The log-odds that one of them is right, and the same as chance is between any two scans.\n";
   out << "  Lead_law any = {" << c.any.fit << ", " << c.any.violations << ", " << c.any.lead << ", "
-      << c.any.distinction << ", " << c.any.offset << ", " << c.any.lapse << "};\n";
+      << c.any.distinction << ", " << c.any.spread << ", " << c.any.tried_all << ", " << c.any.offset << ", "
+      << c.any.lapse << "};\n";
   law("usual_any", c.usual_any);
   out << std::setprecision(3)
       << "  // By how much the probabilities are off: the expected calibration error, in cross-validation.\n"

@@ -13,13 +13,18 @@
 #include "statue_views.h"
 
 #include <CGAL/Crude_registration/internal/judgement/Pose_judge.h>
+#include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
+#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -369,6 +374,50 @@ BOOST_AUTO_TEST_CASE(planes_are_told_apart_by_height_and_direction)
   }
 }
 
+// The variance of the places by all pairs: half of the mean squared distance of two.
+BOOST_AUTO_TEST_CASE(spread_is_the_variance_of_what_agrees_over_its_share)
+{
+  using CR::internal::Outcome;
+  using CR::internal::Surfel;
+  using CR::internal::Vector_f;
+  std::vector<Surfel> probes;
+  std::vector<std::uint8_t> outcomes;
+  std::vector<Vector> agreeing;
+  for (int i = 0; i < 60; ++i) {
+    Surfel s{};
+    s.position = Vector_f(100 + std::cos(float(i)), std::sin(3.f * float(i)), 0.1f * float(i));
+    s.normal = Vector_f(0, 0, 1);
+    probes.push_back(s);
+    constexpr std::array<std::uint8_t, 5> others = {Outcome::UNKNOWN, Outcome::DISAGREES, Outcome::IN_FREE_SPACE,
+                                                    Outcome::MISSING, Outcome::DISAGREES};
+    const bool agrees = i % 3 == 0;
+    outcomes.push_back(agrees ? std::uint8_t(1 + i % Outcome::fits) : others[std::size_t(i % 5)]);
+    if (agrees) agreeing.push_back(s.position.cast<double>());
+  }
+  double squares = 0;
+  for (const Vector& p : agreeing)
+    for (const Vector& q : agreeing) squares += (p - q).squaredNorm();
+  const auto n = double(agreeing.size());
+  constexpr double floor = 0.25;
+  const CR::internal::Agreeing_probes found = CR::internal::agreeing_probes(probes, outcomes.data(), floor);
+  BOOST_TEST(found.share == (n + 1) / 61);
+  BOOST_TEST(found.variance == (squares / (2 * n) + floor) / (n + 1), boost::test_tools::tolerance(1e-6));
+
+  // Nothing agrees, and there is nothing at all.
+  std::fill(outcomes.begin(), outcomes.end(), std::uint8_t(Outcome::MISSING));
+  const CR::internal::Agreeing_probes none = CR::internal::agreeing_probes(probes, outcomes.data(), floor);
+  BOOST_TEST(none.share == 1. / 61);
+  BOOST_TEST(none.variance == floor);
+  BOOST_TEST(CR::internal::agreeing_probes(std::vector<Surfel>(), outcomes.data(), floor).share == 1);
+
+  // Other units, and the other order of the scans; half as much of the surface in the same places.
+  using CR::internal::spread;
+  const double here = spread({0.3, 4}, {0.2, 5}, 10);
+  BOOST_TEST(here == std::log(9. / 50), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(spread({0.2, 5e6}, {0.3, 4e6}, 1e4) == here, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(spread({0.15, 4}, {0.1, 5}, 10) == here + std::log(2.), boost::test_tools::tolerance(1e-12));
+}
+
 // A box has six planes and its edges, and a statue more than that.
 BOOST_AUTO_TEST_CASE(a_statue_has_more_planes_than_a_box)
 {
@@ -402,7 +451,7 @@ std::vector<Judged_pose> some_poses(std::size_t n, const Pose_evidence& first, c
     poses[i].evidence = i == 0 ? first : others;
     poses[i].log_weight = CR::internal::log_weight(poses[i].evidence, poses[i].evidence.tried);
   }
-  CR::internal::share_probability(poses, false);
+  CR::internal::share_probability(poses, false, false);
   return poses;
 }
 
@@ -427,9 +476,78 @@ BOOST_AUTO_TEST_CASE(odds_rise_with_what_speaks_for_a_pose)
   BOOST_TEST(odds(&Evidence::violations, 0.1, 0) < here);
   BOOST_TEST(odds(&Evidence::surfels, -9900, 0) < here);
   BOOST_TEST(odds(&Evidence::variety, 1, 0) > here);
+  BOOST_TEST(odds(&Evidence::spread, 1, 0) > here);
   // The others as rivals, and as what tells of chance.
   BOOST_TEST(odds(&Evidence::tried, 0, 0.1) < here);
   BOOST_TEST(odds(&Evidence::fuller, 0, 0.1) < here);
+}
+
+namespace {
+
+// One round of wrong poses; what comes after it, a function says.
+class One_round : public CR::internal::Candidate_source
+{
+public:
+  explicit One_round(std::function<void(CR::internal::Run_control&)> then) : m_then(std::move(then)) {}
+  static CR::internal::Proposals round()
+  {
+    std::vector<Pose> poses;
+    for (const double angle : {0.8, 1.6, 2.4, 3.2})
+      poses.push_back(to_pose(turned(own(true_motion(a(), b())), angle, Vector::Zero())));
+    return proposals_of(poses);
+  }
+  std::optional<CR::internal::Proposals> next(CR::internal::Run_control& control) override
+  {
+    if (m_is_first) {
+      m_is_first = false;
+      return round();
+    }
+    m_then(control);
+    return std::nullopt;
+  }
+
+private:
+  std::function<void(CR::internal::Run_control&)> m_then;
+  bool m_is_first = true;
+};
+
+} // namespace
+
+// What leads at the end is more probable than what leads before, by the same for all; a run that is stopped has no end.
+BOOST_AUTO_TEST_CASE(the_end_of_the_rounds_counts)
+{
+  const Reduced_scan &source = a().scan.reduced(), &target = b().scan.reduced();
+  Pose_judge judge = judge_of(source, target);
+  judge.add_round(One_round::round());
+  const std::vector<Judged_pose> before = judge.distinct_poses();
+  judge.end_rounds();
+  const std::vector<Judged_pose> after = judge.distinct_poses();
+  BOOST_TEST_REQUIRE(!before.empty());
+  BOOST_TEST_REQUIRE(after.size() == before.size());
+  const double by = CR::internal::Evidence_coefficients().any.tried_all;
+  BOOST_TEST(by > 0);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    BOOST_TEST(after[i].log_odds == before[i].log_odds + by, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(after[i].probability > before[i].probability);
+  }
+
+  BOOST_TEST_REQUIRE(!CR::internal::are_swapped(source, target));
+  bool is_to_stop = false;
+  CR::internal::Run_control control([&](double) { return !is_to_stop; }, std::numeric_limits<double>::infinity());
+  const auto leading_log_odds = [&](const std::function<void(CR::internal::Run_control&)>& then) {
+    return CR::internal::register_reduced_scans(
+               source, target,
+               [&](const Reduced_scan&, const Reduced_scan&) { return std::make_unique<One_round>(then); },
+               CR::internal::Execution::SEQUENTIAL, control)
+        .poses.front()
+        .log_odds;
+  };
+  BOOST_TEST(leading_log_odds([](CR::internal::Run_control&) {}) == after.front().log_odds);
+  BOOST_TEST(leading_log_odds([&](CR::internal::Run_control& c) {
+               is_to_stop = true;
+               while (c.go_on()) {
+               }
+             }) == before.front().log_odds);
 }
 
 BOOST_AUTO_TEST_CASE(poses_that_are_alike_share_what_one_of_them_would_have)
@@ -452,7 +570,9 @@ BOOST_AUTO_TEST_CASE(what_comes_by_chance_counts_nothing)
 {
   std::vector<Judged_pose> poses(2);
   CR::internal::Pose_evidence& e = poses[0].evidence;
-  const auto features = [&] { return CR::internal::Lead_features(CR::internal::leading_pose(poses, false, {})); };
+  const auto features = [&] {
+    return CR::internal::Lead_features(CR::internal::leading_pose(poses, false, {}), false);
+  };
   poses[0].log_weight = 5;
   e = {3, 2, 1, 0.1, 0.25, 1000, 1.5};
   BOOST_TEST(features().fit > 0);
@@ -481,11 +601,11 @@ BOOST_AUTO_TEST_CASE(probabilities_of_poses_and_of_none_add_up_to_one)
   for (const double odds : {-800., -3., 0., 5., 800.})
     for (const double second : {-800., 0., 3.})
       for (const bool is_usual : {false, true}) {
-        c.any = {0, 0, 0, 0, is_usual ? 77 : odds, 0.04};
+        c.any = {0, 0, 0, 0, 0, 0, is_usual ? 77 : odds, 0.04};
         c.usual_any = {0, 0, 0, 0, is_usual ? odds : 77, 0.04};
         std::vector<Judged_pose> poses(2);
         poses[1].log_weight = second;
-        CR::internal::share_probability(poses, is_usual, c);
+        CR::internal::share_probability(poses, is_usual, false, c);
         const double any = 0.96 * (odds < 0 ? std::exp(odds) / (1 + std::exp(odds)) : 1 / (1 + std::exp(-odds))) + 0.02,
                      share = std::exp(second) / (1 + std::exp(second));
         BOOST_TEST(poses[1].probability == any * (0.97 * share + 0.015), boost::test_tools::tolerance(1e-12));
@@ -494,7 +614,7 @@ BOOST_AUTO_TEST_CASE(probabilities_of_poses_and_of_none_add_up_to_one)
         BOOST_TEST(CR::internal::probability_of_any(poses) == any, boost::test_tools::tolerance(1e-12));
       }
   std::vector<Judged_pose> none;
-  CR::internal::share_probability(none, false, c);
+  CR::internal::share_probability(none, false, false, c);
   BOOST_TEST(none.empty());
 }
 

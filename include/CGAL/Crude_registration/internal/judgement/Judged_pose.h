@@ -38,7 +38,8 @@ struct Pose_evidence
   double residual = 0;   // root mean square of the probes that agree, in tolerances
   double violations = 0; // probes in free space, for each that agrees
   double surfels = 0;    // of the scan with fewer
-  double variety = 0;    // logarithm of the number of planes in which lies what agrees; of a leading pose alone
+  // Of a leading pose alone: the logarithm of the number of planes in which lies what agrees, and spread().
+  double variety = 0, spread = 0;
 };
 
 // By what poses are judged: by chance among the pair's own candidates, by chance between any two scans, or, of a view

@@ -24,6 +24,7 @@
 #include <CGAL/Crude_registration/internal/judgement/log_odds.h>
 #include <CGAL/Crude_registration/internal/judgement/on_body.h>
 #include <CGAL/Crude_registration/internal/judgement/probe_outcomes.h>
+#include <CGAL/Crude_registration/internal/judgement/spread.h>
 #include <CGAL/Crude_registration/internal/judgement/variety.h>
 #include <CGAL/Crude_registration/internal/motion/refine_step.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
@@ -91,6 +92,9 @@ public:
     refine_leaders();
   }
 
+  // No more rounds will come.
+  void end_rounds() { m_all_were_tried = true; }
+
   std::size_t number_of_judged() const { return m_judged.size(); }
 
   // Whether one is the whole surface of a body, and the other one is not, but may be a view of it.
@@ -126,7 +130,8 @@ public:
     if (poses.empty()) return;
     Judged_pose& first = poses[std::size_t(leading(poses) - poses.begin())];
     first.evidence.variety = variety(first.pose);
-    internal::share_probability(poses, by != Judged_by::PAIR,
+    first.evidence.spread = spread(first.pose);
+    internal::share_probability(poses, by != Judged_by::PAIR, m_all_were_tried,
                                 by == Judged_by::BODY ? coefficients_of_body(m_coefficients) : m_coefficients);
   }
 
@@ -137,6 +142,18 @@ public:
     return -std::log((probability_of_one_plane(m_source_probes, found.data(), m_tolerance) +
                       probability_of_one_plane(m_target_probes, found.data() + m_source_probes.size(), m_tolerance)) /
                      2);
+  }
+
+  // How far apart lies what agrees under a pose.
+  double spread(const Pose& pose) const
+  {
+    const std::vector<std::uint8_t> found = outcomes(pose);
+    const auto agreeing = [&](const std::vector<Surfel>& probes, const Reduced_scan& scan, std::size_t from) {
+      const auto spacing = double(scan.fine.spacing);
+      return agreeing_probes(probes, found.data() + from, spacing * spacing);
+    };
+    return internal::spread(agreeing(m_source_probes, m_source, 0),
+                            agreeing(m_target_probes, m_target, m_source_probes.size()), double(m_extent));
   }
 
   // A pose as it is.
@@ -366,6 +383,7 @@ private:
   std::vector<std::size_t> m_tried_rows, m_all_rows;    // of the candidates: those that were tried, and all
   std::optional<Pair_chance> m_chance, m_fuller_chance; // by the ones, and by the others
   std::vector<Pose> m_tried;                            // of all rounds
+  bool m_all_were_tried = false;
   std::vector<Judged_pose> m_judged;
   Outcome_table m_judged_source_outcomes, m_judged_target_outcomes;
 };

@@ -93,15 +93,18 @@ inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_
 
 // What tells whether the leading pose is right, by chance as the pair tells it. Evidence counts by how far the residual
 // is from that of chance. How far others are behind counts by the variety of what agrees: where all lies in few planes,
-// one pose leaves the others behind by chance.
+// one pose leaves the others behind by chance. What agrees far apart agrees by chance less often than a patch of the
+// same size. And what leads when all was tried is right more often than what leads before: the right pose, if there is
+// one, is among the candidates more often then.
 struct Lead_features
 {
-  double fit, violations, lead, distinction;
+  double fit, violations, lead, distinction, spread, tried_all;
 
-  explicit Lead_features(const Leading_pose& leading)
+  Lead_features(const Leading_pose& leading, bool all_were_tried)
       : fit(leading.root * (std::max)(0., 1 - leading.pose->evidence.residual / residual_of_chance())),
         violations(std::sqrt(leading.pose->evidence.violations)), lead(leading.lead * leading.pose->evidence.variety),
-        distinction(leading.distinction * leading.pose->evidence.variety)
+        distinction(leading.distinction * leading.pose->evidence.variety), spread(leading.pose->evidence.spread),
+        tried_all(all_were_tried ? 1 : 0)
   {}
 };
 
@@ -109,7 +112,7 @@ struct Lead_features
 inline double log_odds_of_any(const Lead_law& law, const Lead_features& f)
 {
   return law.fit * f.fit + law.violations * f.violations + law.lead * f.lead + law.distinction * f.distinction +
-         law.offset;
+         law.spread * f.spread + law.tried_all * f.tried_all + law.offset;
 }
 
 // Two questions, each with a law of its own: is one of the distinct poses right, and if so, which one? (A nested logit,
@@ -118,14 +121,16 @@ inline double log_odds_of_any(const Lead_law& law, const Lead_features& f)
 //   P(any) = (1 - l) / (1 + exp(-x)) + l / 2,  P_k = P(any) ((1 - m) w_k / sum_j w_j + m / n).
 // x is of the leading pose: all poses were refined until they fit as well as they can, so that its lead tells how much
 // comes by chance between these two scans; what is found between scans that have no right pose is seldom one pose that
-// leaves all others behind. `is_usual`: as chance is between any two scans, whatever the others are.
-// \pre The variety of the leading pose is known.
-inline void share_probability(std::vector<Judged_pose>& poses, bool is_usual, const Evidence_coefficients& c = {})
+// leaves all others behind. `is_usual`: as chance is between any two scans, whatever the others are;
+// `all_were_tried`: no more poses will come.
+// \pre The variety and the spread of the leading pose are known.
+inline void share_probability(std::vector<Judged_pose>& poses, bool is_usual, bool all_were_tried,
+                              const Evidence_coefficients& c = {})
 {
   if (poses.empty()) return;
   const Leading_pose first = leading_pose(poses, is_usual, c);
   const double log_odds = is_usual ? law_of_evidence(c.usual_any, first.root, first.pose->evidence)
-                                   : log_odds_of_any(c.any, Lead_features(first)),
+                                   : log_odds_of_any(c.any, Lead_features(first, all_were_tried)),
                lapse = is_usual ? c.usual_any.lapse : c.any.lapse,
                any = (1 - lapse) / (1 + std::exp(-log_odds)) + lapse / 2, greatest = first.pose->log_weight;
   double sum = 0;

@@ -87,7 +87,11 @@ void propose_and_judge(Candidate_source& candidates, Pose_judge& judge, Stage_re
   for (;;) {
     control.advance(candidates.progress());
     std::optional<Proposals> proposals = candidates.next(control);
-    if (!proposals || control.is_stopped()) return;
+    if (control.is_stopped()) return;
+    if (!proposals) {
+      judge.end_rounds();
+      return;
+    }
     const Stage_timer timer(stage);
     judge.add_round(std::move(*proposals));
     if (control.is_stopped()) return;
