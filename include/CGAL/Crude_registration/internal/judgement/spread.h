@@ -32,7 +32,7 @@ struct Agreeing_probes
   double variance = 0; // of their places: the mean of the squared distances from the mean
 };
 
-// `floor`: the variance of one more probe that is counted as agreeing, so that there is always one.
+// One more probe is counted as agreeing, so that there is always one; `floor`: its squared distance from the mean.
 template <class Probe_range>
 Agreeing_probes agreeing_probes(const Probe_range& probes, const std::uint8_t* outcomes, double floor)
 {
