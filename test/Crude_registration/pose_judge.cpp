@@ -375,7 +375,7 @@ BOOST_AUTO_TEST_CASE(planes_are_told_apart_by_height_and_direction)
 }
 
 // The variance of the places by all pairs: half of the mean squared distance of two.
-BOOST_AUTO_TEST_CASE(spread_is_the_variance_of_what_agrees_over_its_share)
+BOOST_AUTO_TEST_CASE(spread_is_the_variance_of_what_agrees)
 {
   using CR::internal::Outcome;
   using CR::internal::Surfel;
@@ -399,23 +399,20 @@ BOOST_AUTO_TEST_CASE(spread_is_the_variance_of_what_agrees_over_its_share)
     for (const Vector& q : agreeing) squares += (p - q).squaredNorm();
   const auto n = double(agreeing.size());
   constexpr double floor = 0.25;
-  const CR::internal::Agreeing_probes found = CR::internal::agreeing_probes(probes, outcomes.data(), floor);
-  BOOST_TEST(found.share == (n + 1) / 61);
-  BOOST_TEST(found.variance == (squares / (2 * n) + floor) / (n + 1), boost::test_tools::tolerance(1e-6));
+  using CR::internal::variance_of_agreeing;
+  BOOST_TEST(variance_of_agreeing(probes, outcomes.data(), floor) == (squares / (2 * n) + floor) / (n + 1),
+             boost::test_tools::tolerance(1e-6));
 
   // Nothing agrees, and there is nothing at all.
   std::fill(outcomes.begin(), outcomes.end(), std::uint8_t(Outcome::MISSING));
-  const CR::internal::Agreeing_probes none = CR::internal::agreeing_probes(probes, outcomes.data(), floor);
-  BOOST_TEST(none.share == 1. / 61);
-  BOOST_TEST(none.variance == floor);
-  BOOST_TEST(CR::internal::agreeing_probes(std::vector<Surfel>(), outcomes.data(), floor).share == 1);
+  BOOST_TEST(variance_of_agreeing(probes, outcomes.data(), floor) == floor);
+  BOOST_TEST(variance_of_agreeing(std::vector<Surfel>(), outcomes.data(), floor) == floor);
 
-  // Other units, and the other order of the scans; half as much of the surface in the same places.
+  // Other units, and the other order of the scans.
   using CR::internal::spread;
-  const double here = spread({0.3, 4}, {0.2, 5}, 10);
-  BOOST_TEST(here == std::log(9. / 50), boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(spread({0.2, 5e6}, {0.3, 4e6}, 1e4) == here, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(spread({0.15, 4}, {0.1, 5}, 10) == here + std::log(2.), boost::test_tools::tolerance(1e-12));
+  const double here = spread(4, 5, 10);
+  BOOST_TEST(here == std::log(9. / 200), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(spread(5e6, 4e6, 1e4) == here, boost::test_tools::tolerance(1e-12));
 }
 
 // A box has six planes and its edges, and a statue more than that.

@@ -148,12 +148,12 @@ public:
   double spread(const Pose& pose) const
   {
     const std::vector<std::uint8_t> found = outcomes(pose);
-    const auto agreeing = [&](const std::vector<Surfel>& probes, const Reduced_scan& scan, std::size_t from) {
+    const auto variance = [&](const std::vector<Surfel>& probes, const Reduced_scan& scan, std::size_t from) {
       const auto spacing = double(scan.fine.spacing);
-      return agreeing_probes(probes, found.data() + from, spacing * spacing);
+      return variance_of_agreeing(probes, found.data() + from, spacing * spacing);
     };
-    return internal::spread(agreeing(m_source_probes, m_source, 0),
-                            agreeing(m_target_probes, m_target, m_source_probes.size()), double(m_extent));
+    return internal::spread(variance(m_source_probes, m_source, 0),
+                            variance(m_target_probes, m_target, m_source_probes.size()), double(m_extent));
   }
 
   // A pose as it is.

@@ -93,8 +93,8 @@ inline Leading_pose leading_pose(const std::vector<Judged_pose>& poses, bool is_
 
 // What tells whether the leading pose is right, by chance as the pair tells it. Evidence counts by how far the residual
 // is from that of chance. How far others are behind counts by the variety of what agrees: where all lies in few planes,
-// one pose leaves the others behind by chance. What agrees far apart agrees by chance less often than a patch of the
-// same size. And what leads when all was tried is right more often than what leads before: the right pose, if there is
+// one pose leaves the others behind by chance. What agrees far apart agrees by chance less often than what agrees
+// in a patch. And what leads when all was tried is right more often than what leads before: the right pose, if there is
 // one, is among the candidates more often then.
 struct Lead_features
 {

@@ -25,22 +25,16 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// Of the probes of a scan those that agree.
-struct Agreeing_probes
-{
-  double share = 0;    // of all of them
-  double variance = 0; // of their places: the mean of the squared distances from the mean
-};
-
-// One more probe is counted as agreeing, so that there is always one; `floor`: its squared distance from the mean.
+// The variance of the places of a scan's probes that agree: the mean of their squared distances from their mean. One
+// more probe is counted as agreeing, so that there is always one; `floor`: its squared distance from the mean.
 template <class Probe_range>
-Agreeing_probes agreeing_probes(const Probe_range& probes, const std::uint8_t* outcomes, double floor)
+double variance_of_agreeing(const Probe_range& probes, const std::uint8_t* outcomes, double floor)
 {
-  std::size_t n = 0, all = 0;
+  std::size_t n = 0;
   Vector sum = Vector::Zero();
   double squares = 0;
   for (const Surfel& s : probes) {
-    const std::uint8_t o = outcomes[all++];
+    const std::uint8_t o = *outcomes++;
     if (o == Outcome::UNKNOWN || o > Outcome::fits) continue;
     const Vector p = s.position.template cast<double>();
     sum += p;
@@ -48,14 +42,13 @@ Agreeing_probes agreeing_probes(const Probe_range& probes, const std::uint8_t* o
     ++n;
   }
   const double within = n > 0 ? (std::max)(0., squares - sum.squaredNorm() / double(n)) : 0;
-  return {double(n + 1) / double(all + 1), (within + floor) / double(n + 1)};
+  return (within + floor) / double(n + 1);
 }
 
-// The logarithm of the variance of what agrees, in squares of the extent of the scans, over its share of both scans. It
-// does not tell large overlaps from small ones, but patches from what is scattered over the scans.
-inline double spread(const Agreeing_probes& source, const Agreeing_probes& target, double extent)
+// The logarithm of the variance of what agrees, the mean of that of either scan, in squares of the extent of the scans.
+inline double spread(double of_source, double of_target, double extent)
 {
-  return std::log((source.variance + target.variance) / (extent * extent * (source.share + target.share)));
+  return std::log((of_source + of_target) / (2 * extent * extent));
 }
 
 } // namespace internal
