@@ -423,7 +423,6 @@ std::vector<Answer> given(const std::vector<Choice>& choices, const std::vector<
 struct Calibration
 {
   double brier = 0, error = 0; // expected calibration error
-  double deviation = 0;        // standard deviation of the share of right answers, if the probabilities are true
   std::size_t believed = 0, believed_and_wrong = 0;
 };
 
@@ -447,14 +446,11 @@ Calibration print_reliability(const std::vector<Answer>& answers)
               << std::setw(8) << int(right) << std::setprecision(4) << std::setw(12) << (count > 0 ? right / count : 0)
               << std::setw(14) << (count > 0 ? sum / count : 0) << '\n';
   }
-  double variance = 0;
   for (const Answer& a : answers) {
     result.brier += std::pow(a.probability - double(a.is_right), 2) / n;
-    variance += a.probability * (1 - a.probability);
     result.believed += a.probability >= CRI::believed;
     result.believed_and_wrong += a.probability >= CRI::believed && !a.is_right;
   }
-  result.deviation = std::sqrt(variance) / n;
   std::cout << answers.size() << " answers, Brier score " << result.brier << ", expected calibration error "
             << result.error << "; believed " << result.believed << ", of these wrong " << result.believed_and_wrong
             << '\n';
@@ -516,11 +512,9 @@ void write_header(std::ostream& out, const Coefficients& c, const Calibration& c
       << c.any.lapse << "};\n";
   law("usual_any", c.usual_any);
   out << std::setprecision(3)
-      << "  // By how much the probabilities are off: the expected calibration error, in cross-validation; and the "
-         "standard\n"
-         "  // deviation of the share of right answers that so many answers have if the probabilities are true.\n"
+      << "  // By how much the probabilities are off: the expected calibration error, in cross-validation.\n"
          "  double calibration_error = "
-      << calibration.error << ", calibration_deviation = " << calibration.deviation << ";\n";
+      << calibration.error << ";\n";
   out << "};\n\n} // namespace internal\n} // namespace Crude_registration\n} // namespace CGAL\n\n"
          "#endif // CGAL_CRUDE_REGISTRATION_INTERNAL_JUDGEMENT_EVIDENCE_COEFFICIENTS_H\n";
 }

@@ -57,9 +57,8 @@ struct Evidence_coefficients
   // The log-odds that one of them is right, and the same as chance is between any two scans.
   Lead_law any = {9.6162, -16.106, 3.1136, 0.39587, 1.2445, 1.0206, -4.2316, 0.013222};
   Evidence_law usual_any = {7.3211, -10.698, -12.761, 4.5327, -8.2389, 0.015733};
-  // By how much the probabilities are off: the expected calibration error, in cross-validation; and the standard
-  // deviation of the share of right answers that so many answers have if the probabilities are true.
-  double calibration_error = 0.00985, calibration_deviation = 0.00409;
+  // By how much the probabilities are off: the expected calibration error, in cross-validation.
+  double calibration_error = 0.00985;
 };
 
 } // namespace internal
