@@ -107,13 +107,13 @@ void search(const Prepared& source, const Model& model, const View& view, double
     }
     Choice found = choice;
     bool is_alike = false;
-    for (const CRI::Judged_pose& p : judge.distinct_poses(CRI::Judged_by::BODY)) {
+    for (CRI::Judged_pose& p : judge.distinct_poses(CRI::Judged_by::BODY)) {
       const CRI::Rigid_motion m = t.own_from_input.inverse() * CRI::to_rigid_motion(p.pose) * s.own_from_input;
       const auto motion = CRI::to_aff_transformation<Kernel>(is_swapped ? m.inverse() : m);
       const Pose_of_view pose =
           benchmark_tools::to_pose(model.prepared.moved_from_file.inverse() * motion * source.moved_from_file);
+      judge.add_variety_and_spread(p); // by other coefficients another one may lead
       found.poses.push_back(p.evidence);
-      found.poses.back().variety = judge.variety(p.pose); // by other coefficients another one may lead
       found.is_right.push_back(choice.kind == 0 && model.surface->is_right(pose, view.truth, view.centroid));
       // As registered_parts has it: another motion explains all but a fiftieth of it.
       constexpr double all = 0.98;

@@ -242,13 +242,11 @@ std::vector<Choice> choices_of(const Generation& generation, const Coefficients&
     choice.search = searches;
     choice.right = -1;
     choice.setting = pair.setting;
-    for (const CRI::Judged_pose& p : judge.distinct_poses()) {
+    for (CRI::Judged_pose& p : judge.distinct_poses()) {
       if (choice.right < 0 && pair.truth && is_right(p.pose, *pair.truth, *pair.source))
         choice.right = int(choice.poses.size());
+      judge.add_variety_and_spread(p); // by other coefficients another one may lead
       choice.poses.push_back(p.evidence);
-      // By other coefficients another one may lead.
-      choice.poses.back().variety = judge.variety(p.pose);
-      choice.poses.back().spread = judge.spread(p.pose);
     }
     if (!choice.poses.empty()) choices.push_back(choice);
   });

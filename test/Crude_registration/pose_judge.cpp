@@ -423,7 +423,9 @@ BOOST_AUTO_TEST_CASE(a_statue_has_more_planes_than_a_box)
   CR::make_statue(statue, 48);
   const Scan of_box(box), of_statue(statue);
   const auto planes = [](const Scan& scan) {
-    return std::exp(judge_of(scan.reduced(), scan.reduced()).variety(Pose()));
+    Judged_pose at_itself;
+    judge_of(scan.reduced(), scan.reduced()).add_variety_and_spread(at_itself);
+    return std::exp(at_itself.evidence.variety);
   };
   // Two probes on the same of the faces lie in one plane. Those at the edges, whose normals are between, may not.
   std::size_t flat = 0;

@@ -129,31 +129,26 @@ public:
   {
     if (poses.empty()) return;
     Judged_pose& first = poses[std::size_t(leading(poses) - poses.begin())];
-    first.evidence.variety = variety(first.pose);
-    first.evidence.spread = spread(first.pose);
+    add_variety_and_spread(first);
     internal::share_probability(poses, by != Judged_by::PAIR, m_all_were_tried,
                                 by == Judged_by::BODY ? coefficients_of_body(m_coefficients) : m_coefficients);
   }
 
-  // The logarithm of the number of planes in which lies what agrees under a pose, by the mean of both scans.
-  double variety(const Pose& pose) const
+  // To the evidence of a pose what counts of a leading one alone: the logarithm of the number of planes in which lies
+  // what agrees, by the mean of both scans, and how far apart that lies.
+  void add_variety_and_spread(Judged_pose& leading) const
   {
-    const std::vector<std::uint8_t> found = outcomes(pose);
-    return -std::log((probability_of_one_plane(m_source_probes, found.data(), m_tolerance) +
-                      probability_of_one_plane(m_target_probes, found.data() + m_source_probes.size(), m_tolerance)) /
-                     2);
-  }
-
-  // How far apart lies what agrees under a pose.
-  double spread(const Pose& pose) const
-  {
-    const std::vector<std::uint8_t> found = outcomes(pose);
-    const auto variance = [&](const std::vector<Surfel>& probes, const Reduced_scan& scan, std::size_t from) {
+    const std::vector<std::uint8_t> found = outcomes(leading.pose);
+    const std::uint8_t *const of_source = found.data(), *const of_target = of_source + m_source_probes.size();
+    leading.evidence.variety = -std::log((probability_of_one_plane(m_source_probes, of_source, m_tolerance) +
+                                          probability_of_one_plane(m_target_probes, of_target, m_tolerance)) /
+                                         2);
+    const auto variance = [](const std::vector<Surfel>& probes, const Reduced_scan& scan, const std::uint8_t* of_scan) {
       const auto spacing = double(scan.fine.spacing);
-      return variance_of_agreeing(probes, found.data() + from, spacing * spacing);
+      return variance_of_agreeing(probes, of_scan, spacing * spacing);
     };
-    return internal::spread(variance(m_source_probes, m_source, 0),
-                            variance(m_target_probes, m_target, m_source_probes.size()), double(m_extent));
+    leading.evidence.spread = spread(variance(m_source_probes, m_source, of_source),
+                                     variance(m_target_probes, m_target, of_target), double(m_extent));
   }
 
   // A pose as it is.

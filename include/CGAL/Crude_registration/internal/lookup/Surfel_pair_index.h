@@ -55,6 +55,9 @@ inline bool pair_angles(const Surfel& a, const Surfel& b, Pair_angles& angles)
   return true;
 }
 
+// Normals are opposite about a line if their sum is shorter than the root of this, as far as it is perpendicular.
+constexpr float opposite_normals = 0.09f;
+
 // The axes that two surfels span: the line between them, and the mean of their normals as far as it is perpendicular.
 // Maps equal pairs onto each other: rotation = pair_frame(target pair) * pair_frame(source pair)^T.
 inline Matrix_f pair_frame(const Surfel& a, const Surfel& b)
@@ -64,7 +67,7 @@ inline Matrix_f pair_frame(const Surfel& a, const Surfel& b)
   Vector_f z = a.normal + b.normal;
   z -= z.dot(x) * x;
   float length2 = z.squaredNorm();
-  if (length2 < 0.09f) {
+  if (length2 < opposite_normals) {
     z = a.normal - a.normal.dot(x) * x;
     length2 = z.squaredNorm();
   }

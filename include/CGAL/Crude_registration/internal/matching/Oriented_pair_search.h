@@ -23,6 +23,7 @@
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 #include <CGAL/Crude_registration/internal/matching/Matched_pair.h>
 #include <CGAL/Crude_registration/internal/matching/Oriented_pair_parameters.h>
+#include <CGAL/Crude_registration/internal/matching/Witness.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <algorithm>
@@ -243,23 +244,6 @@ private:
     return chosen;
   }
 
-  // A surfel of the source in the frame of a pair: pair_frame() about the pair's middle.
-  struct Witness
-  {
-    Vector_f position, normal;
-  };
-
-  // `frame`, `middle`: of the target's pair.
-  bool has_counterpart(const Witness& w, const Matrix_f& frame, const Vector_f& middle) const
-  {
-    const Vector_f p = frame * w.position + middle;
-    const int j = m_target.coarse.field.nearest(p);
-    if (j < 0) return false;
-    const Surfel& t = m_target.coarse.surfels[std::size_t(j)];
-    return std::abs(t.normal.dot(p - t.position)) <= m_parameters.distance * m_spacing &&
-           (frame * w.normal).dot(t.normal) >= m_parameters.minimal_cosine;
-  }
-
   // Surfels around the pair. The first two are v2 and v3: furthest from the line through V and v1, on either side.
   bool choose_witnesses(const Source_pair& p, std::vector<Witness>& witnesses) const
   {
@@ -337,36 +321,46 @@ private:
     const Matrix_f source_frame = pair_frame(a, b).transpose();
     const std::array<std::uint16_t, 2> source_pair = {std::uint16_t(p.first), std::uint16_t(p.second)};
     const Curvature_window window(Pair_curvatures::of(a, b), int(float(round.curvature_tolerance) * m_curvature_noise));
+    const Witness_tolerance tolerance{m_parameters.distance * m_spacing, m_parameters.minimal_cosine};
+    Pairs_with_counterpart first_witness(witnesses.front(), m_target.coarse, tolerance);
     const auto examine = [&](const Surfel_pair_index::Entry& e) {
       const Surfel &c = m_target.coarse.surfels[e.first], &c1 = m_target.coarse.surfels[e.second];
       const Matrix_f frame = pair_frame(c, c1);
       const Vector_f there = 0.5f * (c.position + c1.position);
-      if (!has_counterpart(witnesses[0], frame, there) || !has_counterpart(witnesses[1], frame, there)) return;
+      const auto is_found = [&](const Witness& w) {
+        return has_counterpart(w, frame, there, m_target.coarse, tolerance);
+      };
+      if (!is_found(witnesses[1])) return;
       int support = 2;
       const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
-      for (int w = 2; w < n && support + n - w >= needed; ++w)
-        support += has_counterpart(witnesses[std::size_t(w)], frame, there);
+      for (int w = 2; w < n && support + n - w >= needed; ++w) support += is_found(witnesses[std::size_t(w)]);
       if (support < needed) return;
       Pose pose;
       pose.rotation = frame * source_frame;
       pose.translation = there - pose.rotation * middle;
       matches.candidates.push_back({pose, 0, {source_pair, {e.first, e.second}}});
     };
+    std::array<Surfel_pair_index::Entry, Pairs_with_counterpart::most> hits;
+    std::size_t n = 0;
+    const auto examine_hits = [&] {
+      n = first_witness.filter(hits, n);
+      for (std::size_t i = 0; i < n; ++i) examine(hits[i]);
+      n = 0;
+    };
     const auto look = [&](const Surfel_pair_index::Entry* from, const Surfel_pair_index::Entry* to) {
       matches.looks += std::size_t(to - from);
       // Some at a time, without a branch: which of them have the curvatures cannot be foretold.
-      std::array<Surfel_pair_index::Entry, 64> hits;
       while (from != to) {
-        const auto* const end = from + (std::min)(to - from, std::ptrdiff_t(hits.size()));
-        std::size_t n = 0;
+        const auto* const end = from + (std::min)(to - from, std::ptrdiff_t(hits.size() - n));
         for (; from != end; ++from) {
           hits[n] = *from;
           n += window.contains(from->curvatures);
         }
-        for (std::size_t i = 0; i < n; ++i) examine(hits[i]);
+        if (n == hits.size()) examine_hits();
       }
     };
     index_of_scale(round.scales[p.scale]).for_each_run(p.angles, look);
+    examine_hits();
     return matches;
   }
 
