@@ -84,7 +84,7 @@ public:
     narrow(candidates, 12, (std::max)(8 * round.kept, candidates.size() / 8), control);
     proposals.dropped = first_distinct(candidates, m_parameters.rounds.front().kept, m_extent);
     narrow(candidates, 40, 4 * round.kept, control);
-    score(candidates, 100, 0, control);
+    score(candidates, 100, 0, candidates.size(), control);
     std::vector<Pose> kept;
     std::vector<Matched_pair> pairs;
     for (const Candidate& c : candidates) {
@@ -152,14 +152,13 @@ private:
   // pose are many, and any few probes may all lie outside of the overlap.
   void narrow(std::vector<Candidate>& candidates, std::size_t probes, std::size_t left, Run_control& control) const
   {
-    if (candidates.size() <= left) return;
-    score(candidates, probes, probes, control);
-    candidates.resize(left);
+    if (candidates.size() > left) score(candidates, probes, probes, left, control);
   }
 
   // Scores the candidates by that many probes of either scan, from `stride` further on for each candidate; the best
-  // come first.
-  void score(std::vector<Candidate>& candidates, std::size_t probes, std::size_t stride, Run_control& control) const
+  // `left` of them are left, the best first.
+  void score(std::vector<Candidate>& candidates, std::size_t probes, std::size_t stride, std::size_t left,
+             Run_control& control) const
   {
     const Look look{m_parameters.distance * m_spacing, m_parameters.minimal_cosine, 1.2f * m_spacing};
     for_each_index(m_execution, candidates.size(), control, [&](std::size_t i) {
@@ -168,8 +167,20 @@ private:
                     Probes(m_target.coarse, i * stride, probes), m_target.coarse, candidates[i].pose, look)
               .score();
     });
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    std::vector<std::size_t> order(candidates.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto is_better = [&](std::size_t a, std::size_t b) {
+      return candidates[a].score != candidates[b].score ? candidates[a].score > candidates[b].score : a < b;
+    };
+    if (left < order.size()) {
+      std::nth_element(order.begin(), order.begin() + std::ptrdiff_t(left), order.end(), is_better);
+      order.resize(left);
+    }
+    std::sort(order.begin(), order.end(), is_better);
+    std::vector<Candidate> best;
+    best.reserve(order.size());
+    for (const std::size_t i : order) best.push_back(candidates[i]);
+    candidates.swap(best);
   }
 
   // Pairs (V, v1) of the source for the next origins.
