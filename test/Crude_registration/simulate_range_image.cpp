@@ -16,6 +16,7 @@
 #include <CGAL/Crude_registration/simulation/simulate_range_image.h>
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -23,6 +23,13 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
+// How the witnesses of a pair are chosen, and how many of them have to have a counterpart.
+struct Witness_rule
+{
+  float reach; // from the middle of the pair, in shares of M
+  int needed;
+};
+
 // One round of the search.
 struct Oriented_pair_round
 {
@@ -46,8 +53,9 @@ struct Oriented_pair_parameters
   float target_half_width = 0.7f;
   float distance = 0.8f; // of a witness to the plane of its counterpart, in spacings
   float minimal_cosine = 0.75f;
-  int witnesses = 16, witnesses_needed = 9;
-  float witness_reach = 0.22f; // of the witnesses from the middle of the pair, in shares of M
+  int witnesses = 16;
+  // Nearer ones lie in a narrow overlap more often; but a small patch is more often like another by chance.
+  Witness_rule of_rarest{0.22f, 9}, of_random{0.176f, 11};
 
   // The length of a scale, as a share of M.
   float length(double scale) const { return float(minimum_extent + scale * (maximum_extent - minimum_extent)); }

@@ -31,6 +31,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -156,17 +158,31 @@ private:
   }
 
   // Scores the candidates by that many probes of either scan, from `stride` further on for each candidate; the best
-  // `left` of them are left, the best first.
+  // `left` of them are left, the best first. In blocks: what is seen to be worse than that many before it is not looked
+  // at to the end.
   void score(std::vector<Candidate>& candidates, std::size_t probes, std::size_t stride, std::size_t left,
              Run_control& control) const
   {
     const Look look{m_parameters.distance * m_spacing, m_parameters.minimal_cosine, 1.2f * m_spacing};
-    for_each_index(m_execution, candidates.size(), control, [&](std::size_t i) {
-      candidates[i].score =
-          agreement(m_source, Probes(m_source.coarse, i * stride, probes), m_target,
-                    Probes(m_target.coarse, i * stride, probes), m_target.coarse, candidates[i].pose, look)
-              .score();
-    });
+    constexpr std::size_t block = 1024;
+    float least = std::numeric_limits<float>::lowest();
+    std::vector<float> best_scores;
+    for (std::size_t from = 0; from < candidates.size(); from += block) {
+      const std::size_t n = (std::min)(block, candidates.size() - from);
+      for_each_index(m_execution, n, control, [&](std::size_t k) {
+        const std::size_t i = from + k;
+        candidates[i].score =
+            agreement(m_source, Probes(m_source.coarse, i * stride, probes), m_target,
+                      Probes(m_target.coarse, i * stride, probes), m_target.coarse, candidates[i].pose, look, least)
+                .score();
+      });
+      for (std::size_t k = 0; k < n; ++k) best_scores.push_back(candidates[from + k].score);
+      if (best_scores.size() <= left) continue;
+      const auto last = best_scores.begin() + std::ptrdiff_t(left - 1);
+      std::nth_element(best_scores.begin(), last, best_scores.end(), std::greater<float>());
+      best_scores.resize(left);
+      least = best_scores.back();
+    }
     std::vector<std::size_t> order(candidates.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     const auto is_better = [&](std::size_t a, std::size_t b) {
@@ -226,15 +242,21 @@ private:
     return pairs;
   }
 
+  // A pair that is looked at, and how its matches are examined.
+  struct Chosen_pair
+  {
+    const Source_pair* pair;
+    Witness_rule rule;
+  };
+
   // Those that the round's looks suffice for, as many for each scale. The rarest in the target say the most for each
   // look. But where the scans have little in common, what is rarest in the target is what it has not seen: so a round
-  // that is to find such scans, too, looks at pairs at random as well.
-  static std::vector<const Source_pair*> affordable(const std::vector<Source_pair>& pairs,
-                                                    const Oriented_pair_round& round)
+  // that is to find such scans, too, looks at pairs at random as well, with nearer witnesses.
+  std::vector<Chosen_pair> affordable(const std::vector<Source_pair>& pairs, const Oriented_pair_round& round) const
   {
-    std::vector<const Source_pair*> chosen;
+    std::vector<Chosen_pair> chosen;
     std::vector<bool> is_chosen(pairs.size(), false);
-    const auto choose = [&](const std::vector<std::int32_t>& order, double share) {
+    const auto choose = [&](const std::vector<std::int32_t>& order, double share, const Witness_rule& rule) {
       std::vector<std::size_t> looks(round.scales.size(),
                                      std::size_t(share * double(round.looks)) / round.scales.size());
       for (const std::int32_t i : order) {
@@ -242,7 +264,7 @@ private:
         if (is_chosen[std::size_t(i)] || looks[p.scale] < p.count) continue;
         looks[p.scale] -= p.count;
         is_chosen[std::size_t(i)] = true;
-        chosen.push_back(&p);
+        chosen.push_back({&p, rule});
       }
     };
     std::vector<std::int32_t> order(pairs.size());
@@ -250,43 +272,9 @@ private:
     std::stable_sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
       return pairs[std::size_t(i)].count < pairs[std::size_t(j)].count;
     });
-    choose(order, 1 - round.at_random);
-    if (round.at_random > 0) choose(shuffled(pairs.size(), 2), round.at_random);
+    choose(order, 1 - round.at_random, m_parameters.of_rarest);
+    if (round.at_random > 0) choose(shuffled(pairs.size(), 2), round.at_random, m_parameters.of_random);
     return chosen;
-  }
-
-  // Surfels around the pair. The first two are v2 and v3: furthest from the line through V and v1, on either side.
-  bool choose_witnesses(const Source_pair& p, std::vector<Witness>& witnesses) const
-  {
-    const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
-                 &b = m_source.coarse.surfels[std::size_t(p.second)];
-    std::vector<std::int32_t> around;
-    const Vector_f middle = 0.5f * (a.position + b.position);
-    const float reach = (std::max)(m_parameters.witness_reach * m_extent, 4 * m_spacing);
-    m_grid.for_each_within(middle.cast<double>(), double(reach), [&](std::int32_t j, double) {
-      if (!m_source.coarse.borders[std::size_t(j)]) around.push_back(j);
-    });
-    if (around.size() < 10) return false;
-    const std::uint64_t seed = std::uint64_t(p.first) << 32 | std::uint64_t(p.second) << 8;
-    const Matrix_f to_pair = pair_frame(a, b).transpose();
-    witnesses.clear();
-    for (int w = 0; w < m_parameters.witnesses; ++w) {
-      const std::size_t r = Counter_random::mixed(seed + std::uint64_t(w)) % around.size();
-      const Surfel& s = m_source.coarse.surfels[std::size_t(around[r])];
-      witnesses.push_back({to_pair * (s.position - middle), to_pair * s.normal});
-    }
-    // The line is the first axis.
-    const auto arm = [](const Witness& w) -> Vector_f { return {0, w.position[1], w.position[2]}; };
-    std::iter_swap(witnesses.begin(),
-                   std::max_element(witnesses.begin(), witnesses.end(), [&](const Witness& x, const Witness& y) {
-                     return arm(x).squaredNorm() < arm(y).squaredNorm();
-                   }));
-    const Vector_f opposite = -arm(witnesses.front());
-    std::iter_swap(witnesses.begin() + 1,
-                   std::max_element(witnesses.begin() + 1, witnesses.end(), [&](const Witness& x, const Witness& y) {
-                     return arm(x).dot(opposite) < arm(y).dot(opposite);
-                   }));
-    return true;
   }
 
   // What a pair of the source matches.
@@ -301,7 +289,7 @@ private:
                                Run_control& control)
   {
     const Stage_timer timer(m_looks);
-    const std::vector<const Source_pair*> chosen = affordable(pairs, round);
+    const std::vector<Chosen_pair> chosen = affordable(pairs, round);
     // In blocks that are the same whatever the number of threads, and that hold no more matches than are wanted: of
     // planes and spheres a single pair has thousands.
     constexpr std::size_t block = 128;
@@ -309,10 +297,10 @@ private:
     for (std::size_t from = 0, to = 0; from < chosen.size() && candidates.size() <= most_candidates && control.go_on();
          from = to) {
       for (std::size_t n = candidates.size(); to < chosen.size() && to - from < block && n <= most_candidates; ++to)
-        n += chosen[to]->count;
+        n += chosen[to].pair->count;
       std::vector<Matches> found(to - from);
       for_each_index(m_execution, found.size(), control,
-                     [&](std::size_t i) { found[i] = match(*chosen[from + i], round); });
+                     [&](std::size_t i) { found[i] = match(chosen[from + i], round); });
       for (const Matches& m : found) {
         m_looks.count += m.looks;
         candidates.insert(candidates.end(), m.candidates.begin(), m.candidates.end());
@@ -321,11 +309,14 @@ private:
     return candidates;
   }
 
-  Matches match(const Source_pair& p, const Oriented_pair_round& round) const
+  Matches match(const Chosen_pair& chosen, const Oriented_pair_round& round) const
   {
+    const Source_pair& p = *chosen.pair;
     Matches matches;
     std::vector<Witness> witnesses;
-    if (!choose_witnesses(p, witnesses)) return matches;
+    if (!choose_witnesses(m_source.coarse, m_grid, p.first, p.second,
+                          (std::max)(chosen.rule.reach * m_extent, 4 * m_spacing), m_parameters.witnesses, witnesses))
+      return matches;
     const Surfel &a = m_source.coarse.surfels[std::size_t(p.first)],
                  &b = m_source.coarse.surfels[std::size_t(p.second)];
     const Vector_f middle = 0.5f * (a.position + b.position);
@@ -343,7 +334,7 @@ private:
       };
       if (!is_found(witnesses[1])) return;
       int support = 2;
-      const int n = m_parameters.witnesses, needed = m_parameters.witnesses_needed;
+      const int n = m_parameters.witnesses, needed = chosen.rule.needed;
       for (int w = 2; w < n && support + n - w >= needed; ++w) support += is_found(witnesses[std::size_t(w)]);
       if (support < needed) return;
       Pose pose;

@@ -12,16 +12,21 @@
 #ifndef CGAL_CRUDE_REGISTRATION_INTERNAL_MATCHING_WITNESS_H
 #define CGAL_CRUDE_REGISTRATION_INTERNAL_MATCHING_WITNESS_H
 
-// Whether a surfel near a pair of the source has a counterpart where a pair of the target takes it.
+// Whether surfels near a pair of the source have a counterpart where a pair of the target takes it.
 
+#include <CGAL/Crude_registration/internal/base/Counter_random.h>
+#include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace CGAL {
 namespace Crude_registration {
@@ -32,6 +37,41 @@ struct Witness
 {
   Vector_f position, normal;
 };
+
+// `number` surfels within `reach` of the middle of a pair, some of them more than once; in `grid` are all of the
+// source's. The first two are v2 and v3: furthest from the line through V and v1, on either side. False where there are
+// too few.
+inline bool choose_witnesses(const Surfel_level& source, const Point_grid& grid, std::int32_t first,
+                             std::int32_t second, float reach, int number, std::vector<Witness>& witnesses)
+{
+  const Surfel &a = source.surfels[std::size_t(first)], &b = source.surfels[std::size_t(second)];
+  std::vector<std::int32_t> around;
+  const Vector_f middle = 0.5f * (a.position + b.position);
+  grid.for_each_within(middle.cast<double>(), double(reach), [&](std::int32_t j, double) {
+    if (!source.borders[std::size_t(j)]) around.push_back(j);
+  });
+  if (around.size() < 10) return false;
+  const std::uint64_t seed = std::uint64_t(first) << 32 | std::uint64_t(second) << 8;
+  const Matrix_f to_pair = pair_frame(a, b).transpose();
+  witnesses.clear();
+  for (int w = 0; w < number; ++w) {
+    const std::size_t r = Counter_random::mixed(seed + std::uint64_t(w)) % around.size();
+    const Surfel& s = source.surfels[std::size_t(around[r])];
+    witnesses.push_back({to_pair * (s.position - middle), to_pair * s.normal});
+  }
+  // The line is the first axis.
+  const auto arm = [](const Witness& w) -> Vector_f { return {0, w.position[1], w.position[2]}; };
+  std::iter_swap(witnesses.begin(),
+                 std::max_element(witnesses.begin(), witnesses.end(), [&](const Witness& x, const Witness& y) {
+                   return arm(x).squaredNorm() < arm(y).squaredNorm();
+                 }));
+  const Vector_f opposite = -arm(witnesses.front());
+  std::iter_swap(witnesses.begin() + 1,
+                 std::max_element(witnesses.begin() + 1, witnesses.end(), [&](const Witness& x, const Witness& y) {
+                   return arm(x).dot(opposite) < arm(y).dot(opposite);
+                 }));
+  return true;
+}
 
 // How close a counterpart has to be: to the plane of a surfel of the target, and its normal to that of the surfel.
 struct Witness_tolerance
