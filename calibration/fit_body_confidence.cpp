@@ -103,7 +103,7 @@ void search(const Prepared& source, const Model& model, const View& view, double
       std::optional<CRI::Proposals> proposals = candidates.next(CRI::to_the_end());
       if (!proposals) break;
       judge.add_round(std::move(*proposals));
-      if (CRI::Pose_judge::is_certain(judge.distinct_poses())) break;
+      if (CRI::is_certain(judge.distinct_poses())) break;
     }
     Choice found = choice;
     bool is_alike = false;

@@ -102,7 +102,7 @@ Other_answer register_otherwise(const CRI::Reduced_scan& a, const CRI::Reduced_s
         poses = distinct(judge, std::move(poses));
       }
     }
-    if (judgement != Judgement::AREA && CRI::Pose_judge::is_certain(poses)) break;
+    if (judgement != Judgement::AREA && CRI::is_certain(poses)) break;
   }
   Other_answer answer;
   if (poses.empty()) return answer;

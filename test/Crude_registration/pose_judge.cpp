@@ -423,7 +423,7 @@ BOOST_AUTO_TEST_CASE(a_statue_has_more_planes_than_a_box)
   CR::make_statue(statue, 48);
   const Scan of_box(box), of_statue(statue);
   const auto planes = [](const Scan& scan) {
-    Judged_pose at_itself;
+    CR::internal::Judged_pose at_itself;
     judge_of(scan.reduced(), scan.reduced()).add_variety_and_spread(at_itself);
     return std::exp(at_itself.evidence.variety);
   };
@@ -479,6 +479,28 @@ BOOST_AUTO_TEST_CASE(odds_rise_with_what_speaks_for_a_pose)
   // The others as rivals, and as what tells of chance.
   BOOST_TEST(odds(&Evidence::tried, 0, 0.1) < here);
   BOOST_TEST(odds(&Evidence::fuller, 0, 0.1) < here);
+}
+
+// The share of answers that obey no law is in the probabilities, and in nothing that more rounds could change.
+BOOST_AUTO_TEST_CASE(no_share_of_answers_without_law_keeps_the_search_going)
+{
+  using CR::internal::is_certain;
+  Pose_evidence best = good;
+  best.fuller = best.tried = 2;
+  for (const double lapse : {0., 0.01, 0.1}) {
+    CR::internal::Evidence_coefficients c;
+    c.any.lapse = c.share.lapse = lapse;
+    std::vector<Judged_pose> sure = some_poses(4, best, poor), doubtful = some_poses(4, good, good);
+    CR::internal::share_probability(sure, false, false, c);
+    CR::internal::share_probability(doubtful, false, false, c);
+    BOOST_TEST(is_certain(sure));
+    BOOST_TEST(!is_certain(doubtful));
+    // At least half of one answer and three quarters of the other that obey no law are something else.
+    BOOST_TEST(sure.front().probability <= (1 - lapse / 2) * (1 - lapse * 3 / 4) + 1e-9);
+    BOOST_TEST(sure.front().by_law > 0.99);
+    for (const Judged_pose& p : doubtful) BOOST_TEST(p.by_law <= 0.25 + 1e-9);
+  }
+  BOOST_TEST(!is_certain(std::vector<Judged_pose>()));
 }
 
 namespace {

@@ -31,7 +31,8 @@ struct Judgement_limits
   /// The confidence from which on a motion is believed: `REGISTERED`.
   static constexpr double believed = 0.9;
 
-  /// The probability from which on, or from one less it on, nothing more is looked for.
+  /// The probability from which on, or from one less it on, nothing more is looked for. (The share of answers that obey
+  /// no law of evidence is left out of it: it would not become less by that.)
   static constexpr double certain = 0.99;
 
   /// How far a motion that is given may be from what refinement makes of it to be called right, in sampling distances

@@ -131,8 +131,7 @@ auto best_of_sides(const Scan<Kernel>& source, const Scan<Kernel>& target, Run_c
     control.set_part(i, sides.size());
     outcomes.push_back(run(*sides[i].first, *sides[i].second));
     if (is_better(outcomes.back(), outcomes.front())) std::swap(outcomes.back(), outcomes.front());
-    const Verdict& verdict = outcomes.front().verdict;
-    if (control.is_stopped() || (verdict.status == REGISTERED && verdict.confidence >= certain)) break;
+    if (control.is_stopped() || is_certain(outcomes.front())) break;
   }
   for (std::size_t i = 1; i < outcomes.size(); ++i) {
     add_rival(outcomes[i], extent, outcomes.front());

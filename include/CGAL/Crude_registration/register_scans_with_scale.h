@@ -135,8 +135,7 @@ Scaled_outcome register_scans_with_scale(const Scan<Kernel>& source, const Scan<
                      (std::numeric_limits<double>::infinity)());
     outcomes.push_back(registered_at<ConcurrencyTag>(scales[i], source, target, generator, part));
     if (is_better(outcomes.back(), outcomes[best])) best = i;
-    const Verdict& verdict = outcomes[best].verdict;
-    if (verdict.status == REGISTERED && verdict.confidence >= certain) break;
+    if (is_certain(outcomes[best])) break;
   }
   Scaled_outcome outcome = outcomes[best];
   outcome.verdict = verdict_of(outcomes, outcome, scales.size());

@@ -61,6 +61,7 @@ struct Judged_pose
   double log_weight = 0;  // by which it shares the probability that one of the distinct poses is right
   double log_odds = 0;    // of being right, against there being no right one
   double probability = 0; // of being right, among all distinct poses and none of them
+  double by_law = 0;      // the same if the answer is none of those that obey no law
 };
 
 } // namespace internal

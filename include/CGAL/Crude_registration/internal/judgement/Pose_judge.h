@@ -173,12 +173,6 @@ public:
   // Whether two poses count as one.
   bool are_same(const Pose& a, const Pose& b) const { return are_one(a, b, m_extent); }
 
-  // Whether no more has to be looked for.
-  static bool is_certain(const std::vector<Judged_pose>& distinct)
-  {
-    return !distinct.empty() && distinct.front().probability >= certain;
-  }
-
   // A pose as it is, with what the evidence says of it.
   // \pre A round was added.
   Judged_pose weighed(const Pose& pose, Judged_by by = Judged_by::PAIR) const
@@ -239,7 +233,7 @@ private:
     std::vector<Judged_pose> leaders = distinct_poses();
     if (leaders.size() > most_leaders) leaders.resize(most_leaders);
     for (const Judged_pose& leader : leaders) {
-      if (leader.probability <= 1 - certain || leader.probability >= certain) continue;
+      if (leader.by_law <= 1 - certain || leader.by_law >= certain) continue;
       std::vector<Pose> starts;
       for (const Pose& p : m_tried)
         if (are_one(p, leader.pose, m_extent)) starts.push_back(p);

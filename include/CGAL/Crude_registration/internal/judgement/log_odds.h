@@ -14,6 +14,7 @@
 
 // From evidence to probabilities.
 
+#include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
 #include <CGAL/Crude_registration/internal/judgement/evidence_coefficients.h>
 
@@ -131,15 +132,23 @@ inline void share_probability(std::vector<Judged_pose>& poses, bool is_usual, bo
   const Leading_pose first = leading_pose(poses, is_usual, c);
   const double log_odds = is_usual ? law_of_evidence(c.usual_any, first.root, first.pose->evidence)
                                    : log_odds_of_any(c.any, Lead_features(first, all_were_tried)),
-               lapse = is_usual ? c.usual_any.lapse : c.any.lapse,
-               any = (1 - lapse) / (1 + std::exp(-log_odds)) + lapse / 2, greatest = first.pose->log_weight;
+               lapse = is_usual ? c.usual_any.lapse : c.any.lapse, any = 1 / (1 + std::exp(-log_odds)),
+               greatest = first.pose->log_weight;
   double sum = 0;
   for (const Judged_pose& p : poses) sum += std::exp(p.log_weight - greatest);
   for (Judged_pose& p : poses) {
     const double share = std::exp(p.log_weight - greatest) / sum;
     p.log_odds = log_odds + p.log_weight - greatest - std::log(sum);
-    p.probability = any * ((1 - c.share.lapse) * share + c.share.lapse / double(poses.size()));
+    p.by_law = any * share;
+    p.probability =
+        ((1 - lapse) * any + lapse / 2) * ((1 - c.share.lapse) * share + c.share.lapse / double(poses.size()));
   }
+}
+
+// Whether no more has to be looked for: what obeys no law is not made more certain by that.
+inline bool is_certain(const std::vector<Judged_pose>& distinct)
+{
+  return !distinct.empty() && distinct.front().by_law >= Judgement_limits::certain;
 }
 
 // The probability that any of some distinct poses is right.

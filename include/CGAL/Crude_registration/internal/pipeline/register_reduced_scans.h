@@ -22,6 +22,7 @@
 #include <CGAL/Crude_registration/internal/base/near_poses.h>
 #include <CGAL/Crude_registration/internal/judgement/Judged_pose.h>
 #include <CGAL/Crude_registration/internal/judgement/Verdict.h>
+#include <CGAL/Crude_registration/internal/judgement/log_odds.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 #include <CGAL/Crude_registration/internal/motion/twist.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
@@ -65,6 +66,12 @@ inline bool is_better(const Registration_outcome& a, const Registration_outcome&
   if (a.poses.empty() || b.poses.empty()) return !a.poses.empty() && b.poses.empty();
   if (a.is_off_body != b.is_off_body) return b.is_off_body;
   return a.poses.front().log_odds > b.poses.front().log_odds;
+}
+
+// Whether nothing more has to be looked for.
+inline bool is_certain(const Registration_outcome& outcome)
+{
+  return outcome.verdict.status == REGISTERED && is_certain(outcome.poses);
 }
 
 // The best motion of another run, with other sides of the same scans, is a rival, unless it is the same. `extent`: of

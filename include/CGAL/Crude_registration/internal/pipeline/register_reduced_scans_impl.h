@@ -216,7 +216,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Registration_outcome register_reduced_scans(const
   return registration_of(
       a, b, make_candidates, execution, control,
       [](const Pose_judge& judge, Judged_by by) { return judge.distinct_poses(by); },
-      [](const Pose_judge& judge) { return Pose_judge::is_certain(judge.distinct_poses()); });
+      [](const Pose_judge& judge) { return is_certain(judge.distinct_poses()); });
 }
 
 CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Reduced_scan& a, const Reduced_scan& b,
@@ -244,7 +244,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Judgement_outcome judge_reduced_motion(const Redu
   static_cast<Registration_outcome&>(outcome) =
       registration_of(a, b, make_candidates, execution, control, poses, [&](const Pose_judge& judge) {
         const std::vector<Judged_pose> all = poses(judge, Judged_by::PAIR);
-        return !all.empty() && (all.front().probability >= certain || all.front().probability <= 1 - certain);
+        return is_certain(all) || (!all.empty() && all.front().by_law <= 1 - certain);
       });
   if (outcome.poses.empty()) return outcome;
   Verdict& verdict = outcome.verdict;
