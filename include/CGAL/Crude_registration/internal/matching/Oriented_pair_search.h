@@ -206,7 +206,9 @@ private:
     std::vector<Source_pair> pairs;
     std::vector<std::vector<std::int32_t>> shells(round.scales.size());
     const float width = m_parameters.source_half_width * m_spacing;
-    const float longest = m_parameters.length(round.scales.front()) * m_extent + width;
+    std::vector<float> lengths;
+    for (const double scale : round.scales) lengths.push_back(m_parameters.length(scale) * m_extent);
+    const float longest = lengths.front() + width;
     const auto least = float(m_parameters.minimum_extent) * m_extent,
                greatest = float(m_parameters.maximum_extent) * m_extent;
     index_scales(round.scales);
@@ -219,7 +221,7 @@ private:
         const float d = std::sqrt(float(d2));
         if (!(d >= least && d <= greatest)) return;
         for (std::size_t k = 0; k < shells.size(); ++k)
-          if (std::abs(d - m_parameters.length(round.scales[k]) * m_extent) <= width) shells[k].push_back(j);
+          if (std::abs(d - lengths[k]) <= width) shells[k].push_back(j);
       });
       for (std::size_t k = 0; k < shells.size(); ++k) {
         const Surfel_pair_index& index = index_of_scale(round.scales[k]);
