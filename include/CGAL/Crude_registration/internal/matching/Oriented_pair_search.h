@@ -364,7 +364,7 @@ private:
       }
     };
     index_of_scale(round.scales[p.scale]).for_each_run(p.angles, look);
-    examine_hits();
+    if (n > 0) examine_hits();
     return matches;
   }
 
