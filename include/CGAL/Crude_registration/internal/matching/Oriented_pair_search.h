@@ -179,7 +179,7 @@ private:
       for (std::size_t k = 0; k < n; ++k) best_scores.push_back(candidates[from + k].score);
       if (best_scores.size() <= left) continue;
       const auto last = best_scores.begin() + std::ptrdiff_t(left - 1);
-      std::nth_element(best_scores.begin(), last, best_scores.end(), std::greater<float>());
+      std::nth_element(best_scores.begin(), last, best_scores.end(), std::greater<>());
       best_scores.resize(left);
       least = best_scores.back();
     }
