@@ -101,14 +101,14 @@ public:
 
   Pairs_with_counterpart(const Witness& witness, const Surfel_level& target, const Witness_tolerance& tolerance)
       : m_witness(witness), m_target(target), m_tolerance(tolerance)
-  {
-    for (Rows* rows : {&m_a, &m_b, &m_n, &m_m}) rows->fill(Row::Zero());
-  }
+  {}
 
   // Leaves of the pairs those that have one, in their order, and returns how many.
   // \pre n <= most
   std::size_t filter(std::array<Entry, most>& pairs, std::size_t n)
   {
+    for (Rows* rows : {&m_a, &m_b, &m_n, &m_m})
+      for (Row& r : *rows) r.resize(Eigen::Index(n));
     for (std::size_t i = 0; i < n; ++i) {
       const Surfel &a = m_target.surfels[pairs[i].first], &b = m_target.surfels[pairs[i].second];
       const auto row = Eigen::Index(i);
@@ -143,7 +143,8 @@ public:
   }
 
 private:
-  using Row = Eigen::Array<float, int(most), 1>;
+  // Of as many as there are, without an allocation.
+  using Row = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, int(most), 1>;
   using Rows = std::array<Row, 3>;
 
   // Exactly rounded, as Eigen's for arrays need not be: it differs from processor to processor.
