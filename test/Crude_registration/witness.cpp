@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(many_pairs_at_a_time_are_as_one_by_one)
         ++found;
         const Vector line = (b.position - a.position).cast<double>().normalized(),
                      sum = (a.normal + b.normal).cast<double>();
-        opposite += (sum - sum.dot(line) * line).norm() < 0.29;
+        opposite += (sum - sum.dot(line) * line).squaredNorm() < 0.99 * double(opposite_normals);
       }
       BOOST_TEST(next == left);
     }

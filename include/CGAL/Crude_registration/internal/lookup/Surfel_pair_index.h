@@ -55,7 +55,8 @@ inline bool pair_angles(const Surfel& a, const Surfel& b, Pair_angles& angles)
   return true;
 }
 
-// Normals are opposite about a line if their sum is shorter than the root of this, as far as it is perpendicular.
+// Normals are opposite about a line if their sum, as far as it is perpendicular, is shorter than the root of this, 0.3:
+// those of surfels side by side differ by about as much, so that the direction of a shorter sum is noise.
 constexpr float opposite_normals = 0.09f;
 
 // The axes that two surfels span: the line between them, and the mean of their normals as far as it is perpendicular.
