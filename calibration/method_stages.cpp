@@ -187,7 +187,8 @@ void write_judged(std::ostream& out, const CR::Scan<Kernel>& source, const CR::S
   const CRI::Reduced_scan &s = source.reduced(), &t = target.reduced();
   const float free_depth = float(CR::Judgement_limits::free_space_depth * (std::max)(s.spacing, t.spacing));
   std::vector<std::uint8_t> outcomes(s.fine.surfels.size());
-  CRI::probe_outcomes(s.fine.surfels, t, pose, CRI::probe_tolerance(s.fine, t.fine, free_depth), outcomes.data());
+  CRI::probe_outcomes(CRI::Probes(s.fine.surfels), t, pose, CRI::probe_tolerance(s.fine, t.fine, free_depth),
+                      outcomes.data());
   out << "{\"probability\":" << judged.probability << ",\"motion\":";
   write_motion(out, CRI::to_aff_transformation<Kernel>(t.own_from_input.inverse() * CRI::to_rigid_motion(pose) *
                                                        s.own_from_input));

@@ -253,8 +253,8 @@ void agreement_of_probes(benchmark::State& state)
 {
   const Input& in = input(state);
   const CR::internal::Reduced_scan &source = in.source_scan.reduced(), &target = in.target_scan.reduced();
-  const CR::internal::Probes source_probes(source.coarse, 0, source.coarse.probes.size()),
-      target_probes(target.coarse, 0, target.coarse.probes.size());
+  const auto source_probes = CR::internal::ordered_probes(source.coarse),
+             target_probes = CR::internal::ordered_probes(target.coarse);
   const float spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
   const CR::internal::Look look{spacing, 0.7f, spacing};
   const CR::internal::Pose pose = in.true_pose();
@@ -269,7 +269,7 @@ void refinement_step(benchmark::State& state)
 {
   const Input& in = input(state);
   const CR::internal::Reduced_scan &source = in.source_scan.reduced(), &target = in.target_scan.reduced();
-  const CR::internal::Probes probes(source.coarse, 0, source.coarse.probes.size());
+  const auto probes = CR::internal::neighbouring_probes(source.coarse, source.coarse.probes.size());
   const float spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
   CR::internal::Pose start = in.true_pose();
   start.translation[0] += 0.5f * spacing;

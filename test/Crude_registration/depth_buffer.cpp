@@ -71,9 +71,22 @@ Depth_buffer perspective(const std::vector<Vector>& samples, const Placement& at
   return Depth_buffer(Flat_sensor::PERSPECTIVE, at(Vector::Zero()), at.direction(), placed, float(cell * at.unit));
 }
 
-// in_front() in the unit of the samples.
+// in_front() in the unit of the samples. In a row of places it is the same for each, but that of what nothing is known
+// of it is enough to say so.
 double in_front(const Depth_buffer& depths, const Placement& at, const Vector& p)
 {
+  using namespace CGAL::Crude_registration::internal;
+  Rows places;
+  const auto place = [&](int i) { return at((i % 3 == 0 ? 1. : 0.7 + 0.1 * i) * p); };
+  for (int i = 0; i < row_size; ++i)
+    for (int k = 0; k < 3; ++k) places[std::size_t(k)][i] = place(i)[k];
+  const Row row = depths.in_front(places);
+  for (int i = 0; i < row_size; ++i) {
+    const float alone = depths.in_front(place(i));
+    const float nothing_is_known = -1e30f;
+    BOOST_TEST_REQUIRE(
+        ((alone > nothing_is_known && row[i] == alone) || (!(alone > nothing_is_known) && row[i] < nothing_is_known)));
+  }
   return double(depths.in_front(at(p))) / at.unit;
 }
 

@@ -109,8 +109,8 @@ BOOST_AUTO_TEST_CASE(a_scan_has_the_counterparts_of_its_own_witnesses)
     half_turn.col(2) *= -1;
     for (const Witness& w : witnesses) {
       ++n;
-      found += has_counterpart(w, frame, middle, level, tolerance);
-      turned += has_counterpart(w, half_turn, middle, level, tolerance);
+      found += has_counterpart(w, {frame, middle}, level, tolerance);
+      turned += has_counterpart(w, {half_turn, middle}, level, tolerance);
     }
   }
   BOOST_TEST(n > 800u);
@@ -128,6 +128,7 @@ BOOST_AUTO_TEST_CASE(many_pairs_at_a_time_are_as_one_by_one)
   const Point_grid grid = grid_of(source);
   const Witness_tolerance tolerance{0.8f * target.spacing, 0.75f};
   constexpr std::size_t most = Pairs_with_counterpart::most;
+  std::array<Pairs_with_counterpart::Found_pair, most> found_pairs;
   std::size_t found = 0, opposite = 0;
   unsigned seed = 10;
   for (const auto& p : some_pairs(source, 60, 3)) {
@@ -138,15 +139,17 @@ BOOST_AUTO_TEST_CASE(many_pairs_at_a_time_are_as_one_by_one)
       const std::vector<Surfel_pair_index::Entry> pairs = some_pairs(target, n, ++seed);
       std::array<Surfel_pair_index::Entry, most> block{};
       std::copy(pairs.begin(), pairs.end(), block.begin());
-      const std::size_t left = together.filter(block, n);
+      const std::size_t left = together.find(block, n, found_pairs);
       std::size_t next = 0;
       for (const auto& q : pairs) {
         const Surfel &a = target.surfels[q.first], &b = target.surfels[q.second];
-        const bool is_found =
-            has_counterpart(witnesses.front(), pair_frame(a, b), 0.5f * (a.position + b.position), target, tolerance);
-        if (!is_found) continue;
+        const Pose place{pair_frame(a, b), 0.5f * (a.position + b.position)};
+        if (!has_counterpart(witnesses.front(), place, target, tolerance)) continue;
         BOOST_TEST_REQUIRE(next < left);
-        BOOST_TEST((block[next].first == q.first && block[next].second == q.second));
+        const Pairs_with_counterpart::Found_pair& f = found_pairs[next];
+        BOOST_TEST((f.pair.first == q.first && f.pair.second == q.second));
+        BOOST_TEST((f.place.rotation - place.rotation).norm() < 1e-6);
+        BOOST_TEST((f.place.translation - place.translation).norm() < 1e-6 * double(target.spacing));
         ++next;
         ++found;
         const Vector line = (b.position - a.position).cast<double>().normalized(),
@@ -158,4 +161,36 @@ BOOST_AUTO_TEST_CASE(many_pairs_at_a_time_are_as_one_by_one)
   }
   BOOST_TEST(found > 100u);
   BOOST_TEST(opposite > 3u);
+}
+
+// So many of the witnesses of a pair have a counterpart as one by one, whatever their number, and whichever number is
+// asked for.
+BOOST_AUTO_TEST_CASE(rows_of_witnesses_are_as_one_by_one)
+{
+  const Surfel_level& source = view(1, 0).scan.reduced().coarse;
+  const Surfel_level& target = view(1, 45).scan.reduced().coarse;
+  const Point_grid grid = grid_of(source);
+  const Witness_tolerance tolerance{0.8f * target.spacing, 0.75f};
+  std::array<std::size_t, 2> answers{}; // no, yes
+  unsigned seed = 100;
+  for (const auto& p : some_pairs(source, 60, 4)) {
+    std::vector<Witness> witnesses;
+    const int number = 3 + int(seed % 20);
+    if (!choose_witnesses(source, grid, p.first, p.second, 6 * source.spacing, number, witnesses)) continue;
+    const Witness_rows rows(witnesses, 2);
+    for (const auto& q : some_pairs(target, 20, ++seed)) {
+      const Surfel &a = target.surfels[q.first], &b = target.surfels[q.second];
+      const Pose place{pair_frame(a, b), 0.5f * (a.position + b.position)};
+      const auto found = int(std::count_if(witnesses.begin() + 2, witnesses.end(), [&](const Witness& w) {
+        return has_counterpart(w, place, target, tolerance);
+      }));
+      for (int needed = -1; needed < number; ++needed) {
+        const bool is_so = rows.have_counterparts(needed, place, target, tolerance);
+        BOOST_TEST_REQUIRE(is_so == (found >= needed));
+        ++answers[std::size_t(is_so)];
+      }
+    }
+  }
+  BOOST_TEST(answers[0] > 100u);
+  BOOST_TEST(answers[1] > 100u);
 }

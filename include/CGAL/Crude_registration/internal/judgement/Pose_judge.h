@@ -143,7 +143,7 @@ public:
     leading.evidence.variety = -std::log((probability_of_one_plane(m_source_probes, of_source, m_tolerance) +
                                           probability_of_one_plane(m_target_probes, of_target, m_tolerance)) /
                                          2);
-    const auto variance = [](const std::vector<Surfel>& probes, const Reduced_scan& scan, const std::uint8_t* of_scan) {
+    const auto variance = [](const Probes& probes, const Reduced_scan& scan, const std::uint8_t* of_scan) {
       const auto spacing = double(scan.fine.spacing);
       return variance_of_agreeing(probes, of_scan, spacing * spacing);
     };
@@ -361,8 +361,7 @@ private:
   const Execution m_execution;
   Run_control& m_control;
   const Evidence_coefficients m_coefficients;
-  const std::vector<Surfel> m_few_source_probes, m_fine_source_probes, m_fine_target_probes, m_source_probes,
-      m_target_probes;
+  const Probes m_few_source_probes, m_fine_source_probes, m_fine_target_probes, m_source_probes, m_target_probes;
   const std::array<double, Outcome::SIZE> m_usual;
   const float m_extent;
   const Look m_fine_look;

@@ -65,8 +65,8 @@ inline void estimate_poses(const Reduced_scan& source, const Reduced_scan& targe
   const float spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
   // About the noise of the worst tenth of surfels.
   const Look look = look_at(source.coarse, target.coarse, 2.7f, 1.75f, 1.2f * spacing);
-  const std::vector<Surfel> source_probes = neighbouring_probes(source.coarse, number_of_probes),
-                            target_probes = neighbouring_probes(target.coarse, 200);
+  const Probes source_probes = neighbouring_probes(source.coarse, number_of_probes),
+               target_probes = neighbouring_probes(target.coarse, 200);
   for_each_index(execution, poses.size(), control, [&](std::size_t i) {
     Estimated_pose& p = poses[i];
     for (float reach : reaches)

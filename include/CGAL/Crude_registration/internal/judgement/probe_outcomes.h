@@ -15,6 +15,7 @@
 // What comes of the probes of a scan under a pose: they agree, disagree, violate free space, or go missing.
 
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/lookup/Probes.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <algorithm>
@@ -65,35 +66,24 @@ inline Probe_tolerance probe_tolerance(const Surfel_level& a, const Surfel_level
 }
 
 // The outcomes of surfels of a scan under `pose`, `other` from the scan.
-template <class Probe_range>
-void probe_outcomes(const Probe_range& probes, const Reduced_scan& other, const Pose& pose,
-                    const Probe_tolerance& tolerance, std::uint8_t* outcome)
+inline void probe_outcomes(const Probes& probes, const Reduced_scan& other, const Pose& pose,
+                           const Probe_tolerance& tolerance, std::uint8_t* outcome)
 {
   // acos is monotonous: the cosines of the bins' edges.
   const std::array<float, 3> cosines = {std::cos(tolerance.angle / 3), std::cos(2 * tolerance.angle / 3),
                                         std::cos(tolerance.angle)};
   const float inverse = 1 / tolerance.distance, widest = other.fine.spacing * other.fine.spacing;
-  // Some at a time, and a step for all of them before the next one, without a branch: what comes of a probe cannot be
-  // foretold. Those that are told by the lines of sight are gathered.
-  constexpr std::size_t block = 64;
-  std::array<Vector_f, block> places, normals;
-  std::array<int, block> nearest;
-  std::array<std::uint8_t, block> open;
-  auto probe = probes.begin();
-  for (std::size_t from = 0; from < probes.size(); from += block, outcome += block) {
-    const std::size_t n = (std::min)(block, probes.size() - from);
-    for (std::size_t i = 0; i < n; ++i, ++probe) {
-      const Surfel& s = *probe;
-      places[i] = pose(s.position);
-      normals[i] = pose.rotation * s.normal;
-      nearest[i] = other.fine.field.nearest(places[i]);
-    }
-    std::size_t opens = 0;
-    for (std::size_t i = 0; i < n; ++i) {
+  const bool is_seen = other.depths.is_known();
+  // A row at a time, without a branch where what comes of a probe cannot be foretold.
+  for (std::size_t from = 0; from < probes.size(); from += std::size_t(row_size), outcome += row_size) {
+    const int in_row = int((std::min)(std::size_t(row_size), probes.size() - from));
+    const Rows places = moved(pose, probes.positions(from)), normals = rotated(pose.rotation, probes.normals(from));
+    const Index_row nearest = other.fine.field.nearest(places);
+    for (int i = 0; i < in_row; ++i) {
       const int is_near = int(nearest[i] >= 0);
       const Surfel& t = other.fine.surfels[std::size_t(is_near != 0 ? nearest[i] : 0)];
-      const Vector_f d = places[i] - t.position;
-      const float r = t.normal.dot(d), u = std::abs(r) * inverse, c = normals[i].dot(t.normal);
+      const Vector_f d = column(places, i) - t.position;
+      const float r = t.normal.dot(d), u = std::abs(r) * inverse, c = column(normals, i).dot(t.normal);
       // Further aside than surfels are apart, the other surface has ended.
       const int is_there = is_near & int((d - r * t.normal).squaredNorm() < widest);
       const int agrees = is_there & int(u < 1) & int(c > cosines[2]);
@@ -101,17 +91,17 @@ void probe_outcomes(const Probe_range& probes, const Reduced_scan& other, const 
       const int angle = int(c <= cosines[0]) + int(c <= cosines[1]);
       outcome[i] =
           std::uint8_t(agrees != 0 ? 1 + Outcome::angle_bins * residual + angle : is_there * Outcome::DISAGREES);
-      open[opens] = std::uint8_t(i);
-      opens += std::size_t(1 - agrees);
     }
-    if (!other.depths.is_known()) continue;
-    for (std::size_t k = 0; k < opens; ++k) {
-      const std::size_t i = open[k];
-      if (other.depths.in_front(places[i]) > tolerance.free_depth) outcome[i] = Outcome::IN_FREE_SPACE;
-      else if (outcome[i] == Outcome::UNKNOWN && other.depths.is_empty(places[i])) {
+    if (!is_seen) continue;
+    // The lines of sight tell of those that do not agree.
+    const Row depths = other.depths.in_front(places);
+    for (int i = 0; i < in_row; ++i) {
+      if (outcome[i] != Outcome::UNKNOWN && outcome[i] != Outcome::DISAGREES) continue;
+      if (depths[i] > tolerance.free_depth) outcome[i] = Outcome::IN_FREE_SPACE;
+      else if (const Vector_f p = column(places, i); outcome[i] == Outcome::UNKNOWN && other.depths.is_empty(p)) {
         // Within 60 degrees of the line of sight.
-        const Vector_f sight = other.depths.sight(places[i]);
-        if (-sight.dot(normals[i]) > 0.5f * sight.norm()) outcome[i] = Outcome::MISSING;
+        const Vector_f sight = other.depths.sight(p);
+        if (-sight.dot(column(normals, i)) > 0.5f * sight.norm()) outcome[i] = Outcome::MISSING;
       }
     }
   }

@@ -112,6 +112,25 @@ public:
     return m_depths[cell(q)] - q[2];
   }
 
+  // The same for a row of places.
+  Row in_front(const Rows& places) const
+  {
+    Rows q = places;
+    for (std::size_t i = 0; i < 3; ++i) q[i] -= m_viewpoint[Eigen::Index(i)];
+    q = rotated(m_axes, q);
+    if (m_kind == Flat_sensor::PERSPECTIVE) {
+      const Row r = root(q[0] * q[0] + (q[1] * q[1] + q[2] * q[2])), sum = r + q[2], f = root(2 / (r * sum));
+      constexpr float nowhere = (std::numeric_limits<float>::quiet_NaN)();
+      q = {(sum > 1e-3f * r).select(q[0] * f, nowhere), (sum > 1e-3f * r).select(q[1] * f, nowhere), r};
+    }
+    const Index_row i = clamped((q[0] - m_low_x) * m_scale, float(m_columns - 1)),
+                    j = clamped((q[1] - m_low_y) * m_scale, float(m_rows - 1));
+    Row depths;
+    for (int k = 0; k < row_size; ++k)
+      depths[k] = m_depths[std::size_t(i[k]) * std::size_t(m_rows) + std::size_t(j[k])];
+    return depths - q[2];
+  }
+
   // Whether `p` would have been seen at a place of the image where nothing was: no sample in its cell nor in those
   // around it.
   bool is_empty(const Vector_f& p) const { return m_is_empty[cell(project(p))] != 0; }

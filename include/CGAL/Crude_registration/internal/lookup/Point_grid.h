@@ -64,7 +64,25 @@ public:
   template <class Function>
   void for_each_within(const Vector& p, double radius, Function&& f) const
   {
-    for_each_row(p, radius, [&](std::size_t from, std::size_t to) { for_each_of(p, radius, from, to, f); });
+    for_each_row(p, radius, [&](std::size_t from, std::size_t to) { for_each_of(p, 0, radius, from, to, f); });
+  }
+
+  // The points within `radius` of p, in the order of for_each_within(): to `indices`.
+  void indices_within(const Vector& p, double radius, std::vector<std::int32_t>& indices) const
+  {
+    std::size_t n = 0;
+    const Vector place = p;
+    for_each_row(place, radius, [&](std::size_t from, std::size_t to) {
+      if (indices.size() < n + (to - from)) indices.resize(2 * (n + (to - from)));
+      std::int32_t* next = indices.data() + n;
+      const Entry* const entries = m_entries.items().data();
+      for (std::size_t e = from; e < to; ++e) {
+        *next = entries[e].index;
+        next += (entries[e].point - place).squaredNorm() <= radius * radius;
+      }
+      n = std::size_t(next - indices.data());
+    });
+    indices.resize(n);
   }
 
   // The differences to p of the points within `radius` of it, in the order of for_each_within(): to `differences`,
@@ -88,17 +106,17 @@ public:
     return n;
   }
 
-  // f(index, other index, squared distance) for every pair of points within `radius` of each other, once, in an order
-  // fixed by the points alone, as long as f returns true.
+  // f(index, other index, squared distance) for every pair of points that are between `least` and `radius` apart, once,
+  // in an order fixed by the points alone, as long as f returns true.
   template <class Function>
-  void for_each_pair_within(double radius, Function&& f) const
+  void for_each_pair_between(double least, double radius, Function&& f) const
   {
     bool go_on = true;
     const std::vector<Entry>& entries = m_entries.items();
     for (std::size_t e = 0; e < entries.size() && go_on; ++e) {
       const Entry& first = entries[e];
       for_each_row(first.point, radius, [&](std::size_t from, std::size_t to) {
-        for_each_of(first.point, radius, (std::max)(from, e + 1), to,
+        for_each_of(first.point, least, radius, (std::max)(from, e + 1), to,
                     [&](std::int32_t j, double d) { go_on = go_on && f(first.index, j, d); });
       });
     }
@@ -129,10 +147,10 @@ private:
         f(m_entries.begin(cell(from[0], y, z)), m_entries.end(cell(to[0], y, z)));
   }
 
-  // f(index, squared distance) for those of the entries that are within `radius` of p. Which are cannot be foretold:
-  // they are first collected, without a branch, some at a time.
+  // f(index, squared distance) for those of the entries that are between `least` and `radius` away from p. Which are
+  // cannot be foretold: they are first collected, without a branch, some at a time.
   template <class Function>
-  void for_each_of(const Vector& p, double radius, std::size_t from, std::size_t to, Function&& f) const
+  void for_each_of(const Vector& p, double least, double radius, std::size_t from, std::size_t to, Function&& f) const
   {
     constexpr std::size_t most = 32;
     std::array<std::int32_t, most> indices;
@@ -143,7 +161,7 @@ private:
       for (; from < end; ++from) {
         indices[n] = m_entries.items()[from].index;
         distances[n] = (m_entries.items()[from].point - p).squaredNorm();
-        n += distances[n] <= radius * radius;
+        n += std::size_t(distances[n] >= least * least) & std::size_t(distances[n] <= radius * radius);
       }
       for (std::size_t k = 0; k < n; ++k) f(indices[k], distances[k]);
     }

@@ -15,6 +15,7 @@
 // The nearest surfel to any place, by one look-up.
 
 #include <CGAL/Crude_registration/internal/base/Rigid_motion.h>
+#include <CGAL/Crude_registration/internal/base/Rows.h>
 
 #include <boost/config.hpp>
 
@@ -128,12 +129,19 @@ public:
   // The index of the surfel nearest to the centre of the voxel of `p`, or `none`. Without a branch: which voxels are
   // empty cannot be foretold, and a wrong guess costs more than the look-up. What is outside, and what is not a number,
   // falls on the outermost voxels, which are empty.
-  int nearest(const Vector_f& p) const
+  int nearest(const Vector_f& p) const { return nearest(coordinate(p, 0), coordinate(p, 1), coordinate(p, 2)); }
+
+  // The same for a row of places.
+  Index_row nearest(const Rows& places) const
   {
-    const int i = coordinate(p, 0), j = coordinate(p, 1), k = coordinate(p, 2);
-    const auto block = std::size_t(m_block_of[block_index(i, j, k)]);
-    const std::uint16_t s = m_voxels[block * 64 + voxel_index(i, j, k)];
-    return s != empty ? int(s) : none;
+    std::array<Index_row, 3> c;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = Eigen::Index(i);
+      c[i] = clamped((places[i] - m_low[axis]) * m_scale, m_size[axis] - 1);
+    }
+    Index_row surfels;
+    for (int k = 0; k < row_size; ++k) surfels[k] = nearest(c[0][k], c[1][k], c[2][k]);
+    return surfels;
   }
 
   // That of the surfels in another unit of length.
@@ -214,7 +222,15 @@ private:
 
   int coordinate(const Vector_f& p, int axis) const
   {
-    return int((std::min)((std::max)(0.f, (p[axis] - m_low[axis]) * m_scale), m_size[axis] - 1));
+    return clamped((p[axis] - m_low[axis]) * m_scale, m_size[axis] - 1);
+  }
+
+  // Of a voxel.
+  int nearest(int i, int j, int k) const
+  {
+    const auto block = std::size_t(m_block_of[block_index(i, j, k)]);
+    const std::uint16_t s = m_voxels[block * 64 + voxel_index(i, j, k)];
+    return int(s) | -int(s == empty); // `none` has all bits
   }
 
   std::size_t block_index(int x, int y, int z) const

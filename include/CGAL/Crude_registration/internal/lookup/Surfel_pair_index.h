@@ -146,7 +146,6 @@ public:
     points.reserve(surfels.size());
     for (const Surfel& s : surfels) points.push_back(s.position.cast<double>());
     const Point_grid grid(points, double(length + half_width) / 2);
-    const double least = double(length - half_width) * double(length - half_width);
     struct Found_pair
     {
       std::uint16_t first, second, bin, reversed_bin;
@@ -155,9 +154,10 @@ public:
     // a speck, does not find them all.
     constexpr std::size_t most = 1000000;
     std::vector<Found_pair> pairs;
-    grid.for_each_pair_within(double(length + half_width), [&](std::int32_t i, std::int32_t j, double d2) {
+    const auto least = double((std::max)(length - half_width, 0.f)), most_apart = double(length + half_width);
+    grid.for_each_pair_between(least, most_apart, [&](std::int32_t i, std::int32_t j, double) {
       Pair_cosines<float> c;
-      if (d2 < least || !pair_cosines(surfels[std::size_t(i)], surfels[std::size_t(j)], c)) return true;
+      if (!pair_cosines(surfels[std::size_t(i)], surfels[std::size_t(j)], c)) return true;
       pairs.push_back({std::uint16_t(i), std::uint16_t(j), std::uint16_t(bin(c)), std::uint16_t(bin(c.reversed()))});
       return pairs.size() < most;
     });

@@ -130,15 +130,15 @@ public:
     std::vector<Pair> pairs;
     if (!points.empty() && maximum_length > 0) {
       const Point_grid grid(points, maximum_length / 2);
-      const double least = minimum_length * minimum_length;
-      grid.for_each_pair_within(maximum_length, [&](std::int32_t first, std::int32_t second, double squared_length) {
-        if (squared_length < least || !(squared_length > 0)) return true;
+      const auto add = [&](std::int32_t first, std::int32_t second, double squared_length) {
+        if (!(squared_length > 0)) return true;
         const auto i = std::size_t(first), j = std::size_t(second);
         if (normals.empty()) pairs.push_back({{float(std::sqrt(squared_length)), {0, 0, 0}}, first, second});
         else if (!normals[i].isZero(0) && !normals[j].isZero(0))
           pairs.push_back({describe(points[i], normals[i], points[j], normals[j]), first, second});
         return true;
-      });
+      };
+      grid.for_each_pair_between(minimum_length, maximum_length, add);
     }
     // No more cells than there are pairs, so that memory stays linear.
     std::size_t cells = 0;

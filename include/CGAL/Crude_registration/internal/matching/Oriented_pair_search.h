@@ -19,6 +19,7 @@
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
 #include <CGAL/Crude_registration/internal/judgement/estimate_poses.h>
 #include <CGAL/Crude_registration/internal/lookup/Point_grid.h>
+#include <CGAL/Crude_registration/internal/lookup/Probes.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_pair_index.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 #include <CGAL/Crude_registration/internal/matching/Matched_pair.h>
@@ -54,7 +55,8 @@ public:
   // \pre Both scans have at least four surfels.
   Oriented_pair_search(const Reduced_scan& source, const Reduced_scan& target, Oriented_pair_parameters parameters,
                        Execution execution)
-      : m_source(source), m_target(target), m_parameters(std::move(parameters)), m_execution(execution)
+      : m_source(source), m_target(target), m_parameters(std::move(parameters)), m_execution(execution),
+        m_source_probes(ordered_probes(source.coarse)), m_target_probes(ordered_probes(target.coarse))
   {
     m_spacing = (std::max)(source.coarse.spacing, target.coarse.spacing);
     m_extent = float((std::min)(source.extent, target.extent));
@@ -171,10 +173,10 @@ private:
       const std::size_t n = (std::min)(block, candidates.size() - from);
       for_each_index(m_execution, n, control, [&](std::size_t k) {
         const std::size_t i = from + k;
-        candidates[i].score =
-            agreement(m_source, Probes(m_source.coarse, i * stride, probes), m_target,
-                      Probes(m_target.coarse, i * stride, probes), m_target.coarse, candidates[i].pose, look, least)
-                .score();
+        candidates[i].score = agreement(m_source, Some_probes(m_source_probes, i * stride, probes), m_target,
+                                        Some_probes(m_target_probes, i * stride, probes), m_target.coarse,
+                                        candidates[i].pose, look, least)
+                                  .score();
       });
       for (std::size_t k = 0; k < n; ++k) best_scores.push_back(candidates[from + k].score);
       if (best_scores.size() <= left) continue;
@@ -204,7 +206,10 @@ private:
   {
     const Stage_timer timer(m_pairs);
     std::vector<Source_pair> pairs;
-    std::vector<std::vector<std::int32_t>> shells(round.scales.size());
+    // The surfels around an origin at each of the lengths; they are collected without a branch.
+    std::vector<std::vector<std::int32_t>> shells(round.scales.size(),
+                                                  std::vector<std::int32_t>(m_source.coarse.surfels.size() + 1));
+    std::vector<std::size_t> sizes(shells.size());
     const float width = m_parameters.source_half_width * m_spacing;
     std::vector<float> lengths;
     for (const double scale : round.scales) lengths.push_back(m_parameters.length(scale) * m_extent);
@@ -215,23 +220,23 @@ private:
     for (int o = 0; o < round.origins && m_next_origin < m_origins.size(); ++o, ++m_next_origin) {
       const std::int32_t v = m_origins[m_next_origin];
       const Surfel& origin = m_source.coarse.surfels[std::size_t(v)];
-      for (auto& s : shells) s.clear();
+      std::fill(sizes.begin(), sizes.end(), std::size_t(0));
       m_grid.for_each_within(origin.position.cast<double>(), double(longest), [&](std::int32_t j, double d2) {
-        if (m_source.coarse.borders[std::size_t(j)]) return;
         const float d = std::sqrt(float(d2));
-        if (!(d >= least && d <= greatest)) return;
-        for (std::size_t k = 0; k < shells.size(); ++k)
-          if (std::abs(d - lengths[k]) <= width) shells[k].push_back(j);
+        const int is_one = int(m_source.coarse.borders[std::size_t(j)] == 0) & int(d >= least) & int(d <= greatest);
+        for (std::size_t k = 0; k < shells.size(); ++k) {
+          shells[k][sizes[k]] = j;
+          sizes[k] += std::size_t(is_one & int(std::abs(d - lengths[k]) <= width));
+        }
       });
       for (std::size_t k = 0; k < shells.size(); ++k) {
         const Surfel_pair_index& index = index_of_scale(round.scales[k]);
-        for (int n = 0; n < round.pairs && !shells[k].empty(); ++n) {
-          const std::size_t r = Counter_random::mixed(std::uint64_t(v) * 64 + std::uint64_t(n)) % shells[k].size();
+        for (int n = 0; n < round.pairs && sizes[k] > 0; ++n) {
+          const std::size_t r = Counter_random::mixed(std::uint64_t(v) * 64 + std::uint64_t(n)) % sizes[k];
           Source_pair p;
           p.first = v;
           p.second = shells[k][r];
-          shells[k][r] = shells[k].back();
-          shells[k].pop_back();
+          shells[k][r] = shells[k][--sizes[k]];
           p.scale = std::uint8_t(k);
           if (!pair_angles(origin, m_source.coarse.surfels[std::size_t(p.second)], p.angles)) continue;
           p.count = std::uint32_t(index.count(p.angles));
@@ -327,44 +332,42 @@ private:
     const Curvature_window window(Pair_curvatures::of(a, b), int(float(round.curvature_tolerance) * m_curvature_noise));
     const Witness_tolerance tolerance{m_parameters.distance * m_spacing, m_parameters.minimal_cosine};
     Pairs_with_counterpart first_witness(witnesses.front(), m_target.coarse, tolerance);
-    const auto examine = [&](const Surfel_pair_index::Entry& e) {
-      const Surfel &c = m_target.coarse.surfels[e.first], &c1 = m_target.coarse.surfels[e.second];
-      const Matrix_f frame = pair_frame(c, c1);
-      const Vector_f there = 0.5f * (c.position + c1.position);
-      const auto is_found = [&](const Witness& w) {
-        return has_counterpart(w, frame, there, m_target.coarse, tolerance);
-      };
-      if (!is_found(witnesses[1])) return;
-      int support = 2;
-      const int n = m_parameters.witnesses, needed = chosen.rule.needed;
-      for (int w = 2; w < n && support + n - w >= needed; ++w) support += is_found(witnesses[std::size_t(w)]);
-      if (support < needed) return;
+    const Witness_rows further_witnesses(witnesses, 2);
+    const auto examine = [&](const Pairs_with_counterpart::Found_pair& found) {
+      const Pose& there = found.place;
+      if (!has_counterpart(witnesses[1], there, m_target.coarse, tolerance) ||
+          !further_witnesses.have_counterparts(chosen.rule.needed - 2, there, m_target.coarse, tolerance))
+        return;
       Pose pose;
-      pose.rotation = frame * source_frame;
-      pose.translation = there - pose.rotation * middle;
-      matches.candidates.push_back({pose, 0, {source_pair, {e.first, e.second}}});
+      pose.rotation = there.rotation * source_frame;
+      pose.translation = there.translation - pose.rotation * middle;
+      matches.candidates.push_back({pose, 0, {source_pair, {found.pair.first, found.pair.second}}});
     };
     std::array<Surfel_pair_index::Entry, Pairs_with_counterpart::most> hits;
-    std::size_t n = 0;
+    std::array<Pairs_with_counterpart::Found_pair, Pairs_with_counterpart::most> found;
+    std::size_t number_of_hits = 0;
     const auto examine_hits = [&] {
-      n = first_witness.filter(hits, n);
-      for (std::size_t i = 0; i < n; ++i) examine(hits[i]);
-      n = 0;
+      const std::size_t n = first_witness.find(hits, number_of_hits, found);
+      for (std::size_t i = 0; i < n; ++i) examine(found[i]);
+      number_of_hits = 0;
     };
     const auto look = [&](const Surfel_pair_index::Entry* from, const Surfel_pair_index::Entry* to) {
       matches.looks += std::size_t(to - from);
       // Some at a time, without a branch: which of them have the curvatures cannot be foretold.
+      const Curvature_window w = window; // that no hit is written to
       while (from != to) {
+        std::size_t n = number_of_hits;
         const auto* const end = from + (std::min)(to - from, std::ptrdiff_t(hits.size() - n));
         for (; from != end; ++from) {
           hits[n] = *from;
-          n += window.contains(from->curvatures);
+          n += w.contains(from->curvatures);
         }
+        number_of_hits = n;
         if (n == hits.size()) examine_hits();
       }
     };
     index_of_scale(round.scales[p.scale]).for_each_run(p.angles, look);
-    if (n > 0) examine_hits();
+    if (number_of_hits > 0) examine_hits();
     return matches;
   }
 
@@ -372,6 +375,7 @@ private:
   const Reduced_scan& m_target;
   const Oriented_pair_parameters m_parameters;
   const Execution m_execution;
+  const Probes m_source_probes, m_target_probes;
   float m_spacing = 0, m_extent = 0, m_curvature_noise = 1;
   Point_grid m_grid;
   std::vector<std::int32_t> m_origins;

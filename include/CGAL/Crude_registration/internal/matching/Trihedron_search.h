@@ -17,6 +17,7 @@
 #include <CGAL/Crude_registration/internal/base/Counter_random.h>
 #include <CGAL/Crude_registration/internal/base/for_each_index.h>
 #include <CGAL/Crude_registration/internal/judgement/agreement.h>
+#include <CGAL/Crude_registration/internal/lookup/Probes.h>
 #include <CGAL/Crude_registration/internal/matching/Candidate_source.h>
 #include <CGAL/Crude_registration/internal/matching/Trihedron_matching.h>
 #include <CGAL/Crude_registration/internal/matching/extents.h>
@@ -85,7 +86,8 @@ public:
       : m_source(source), m_target(target), m_s(*source.simplified), m_d(*target.simplified),
         m_parameters(std::move(parameters)), m_execution(execution), m_spacing((std::max)(m_s.spacing, m_d.spacing)),
         m_source_probes(probes(m_s.vertices)), m_target_probes(probes(m_d.vertices)),
-        m_field(some_of(m_target_probes, Surfel_field::maximum_size), 0.4f * float(m_spacing), float(m_spacing))
+        m_field(some_of(m_target_probes.surfels(), Surfel_field::maximum_size), 0.4f * float(m_spacing),
+                float(m_spacing))
   {
     const std::vector<Vector>& points = m_s.vertices.points;
     for (const Vector& p : points) m_mean += p / double(points.size());
@@ -96,7 +98,7 @@ public:
   {
     const std::size_t passes = m_parameters.passes.size();
     while (m_next_pass < passes && m_spacing > m_parameters.passes[m_next_pass].spacing * m_s.extent) ++m_next_pass;
-    if (m_next_pass == passes || m_source_probes.empty() || m_target_probes.empty()) return std::nullopt;
+    if (m_next_pass == passes || m_source_probes.size() == 0 || m_target_probes.size() == 0) return std::nullopt;
     const Trihedron_pass& pass = m_parameters.passes[m_next_pass++];
     const Stage_timer timer(m_rounds);
     ++m_rounds.count;
@@ -169,7 +171,7 @@ private:
   };
 
   // The described vertices, any first ones of them spread over the mesh.
-  static std::vector<Surfel> probes(const Matching_vertices& vertices)
+  static Probes probes(const Matching_vertices& vertices)
   {
     std::vector<Surfel> result;
     for (const std::int32_t i : shuffled(vertices.points.size(), 0)) {
@@ -179,7 +181,7 @@ private:
       s.normal = vertices.normals[std::size_t(i)].cast<float>();
       result.push_back(s);
     }
-    return result;
+    return Probes(std::move(result));
   }
 
   static std::vector<Surfel> some_of(const std::vector<Surfel>& surfels, std::size_t number)
@@ -187,24 +189,13 @@ private:
     return {surfels.begin(), surfels.begin() + std::ptrdiff_t((std::min)(number, surfels.size()))};
   }
 
-  // A part of a range, without a copy.
-  struct First_surfels
-  {
-    const Surfel* first;
-    std::size_t number;
-    const Surfel* begin() const { return first; }
-    const Surfel* end() const { return first + number; }
-    std::size_t size() const { return number; }
-  };
-
   // How well S lies over D, by at most `count` vertices of each.
   double score_of(const Rigid_motion& motion, std::size_t count,
                   double least = -(std::numeric_limits<double>::max)()) const
   {
     const auto spacing = float(m_spacing);
-    const First_surfels s{m_source_probes.data(), (std::min)(count, m_source_probes.size())},
-        d{m_target_probes.data(), (std::min)(count, m_target_probes.size())};
-    return double(agreement(m_source, s, m_target, d, m_target.coarse, to_pose(motion),
+    return double(agreement(m_source, Some_probes(m_source_probes, 0, count), m_target,
+                            Some_probes(m_target_probes, 0, count), m_target.coarse, to_pose(motion),
                             {0.6f * spacing, 0.7f, 0.8f * spacing}, float(least))
                       .score());
   }
@@ -218,7 +209,7 @@ private:
     options.sampling_distance = m_spacing / 2;
     options.reach = m_spacing;
     options.maximum_number_of_iterations = 8;
-    const Nearest_surfel d{m_target_probes, m_field, m_spacing};
+    const Nearest_surfel d{m_target_probes.surfels(), m_field, m_spacing};
     return Point_to_plane<Nearest_surfel>(m_s.vertices.points, m_s.vertices.normals, d, options)(motion).motion;
   }
 
@@ -364,7 +355,7 @@ private:
   const Trihedron_parameters m_parameters;
   const Execution m_execution;
   const double m_spacing;
-  const std::vector<Surfel> m_source_probes, m_target_probes;
+  const Probes m_source_probes, m_target_probes;
   const Surfel_field m_field; // of the target's probes
   Vector m_mean = Vector::Zero();
   Matrix m_covariance = Matrix::Zero();

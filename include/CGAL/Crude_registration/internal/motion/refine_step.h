@@ -14,11 +14,14 @@
 
 // One step of the refinement of a pose by surfels, in float: what the search spends much of its time on.
 
+#include <CGAL/Crude_registration/internal/base/Rows.h>
+#include <CGAL/Crude_registration/internal/lookup/Probes.h>
 #include <CGAL/Crude_registration/internal/motion/Normal_equations.h>
 #include <CGAL/Crude_registration/internal/reduction/Reduced_scan.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -39,27 +42,29 @@ struct Step
   float variance = 0;
 };
 
-template <class Surfel_range>
-int refine_step(const Surfel_range& source, const Surfel_level& target, const Step& step, Pose& pose)
+inline int refine_step(const Probes& source, const Surfel_level& target, const Step& step, Pose& pose)
 {
   // The unknowns are a rotation about the middle of the correspondences, in units of their spread, and a translation.
   constexpr std::size_t most = 4096;
   thread_local std::vector<std::array<float, 8>> rows; // p, n, residual, weight
   rows.clear();
   Vector_f middle = Vector_f::Zero();
-  for (const Surfel& s : source) {
-    const Vector_f p = pose(s.position);
-    const int j = target.field.nearest(p);
-    if (j < 0) continue;
-    const Surfel& t = target.surfels[std::size_t(j)];
-    const Vector_f e = p - t.position;
-    const float r = t.normal.dot(e);
-    if (std::abs(r) > step.reach || (e - r * t.normal).squaredNorm() > 4 * step.reach * step.reach) continue;
-    if ((pose.rotation * s.normal).dot(t.normal) < step.minimal_cosine) continue;
-    const float weight = step.variance > 0 ? step.variance / (step.variance + s.variance + t.variance) : 1.f;
-    rows.push_back({p[0], p[1], p[2], t.normal[0], t.normal[1], t.normal[2], r, weight});
-    middle += p;
-    if (rows.size() == most) break;
+  for (std::size_t from = 0; from < source.size() && rows.size() < most; from += std::size_t(row_size)) {
+    const Rows places = moved(pose, source.positions(from)), normals = rotated(pose.rotation, source.normals(from));
+    const Index_row nearest = target.field.nearest(places);
+    const int in_row = int((std::min)(source.size() - from, (std::min)(std::size_t(row_size), most - rows.size())));
+    for (int i = 0; i < in_row; ++i) {
+      if (nearest[i] < 0) continue;
+      const Surfel& t = target.surfels[std::size_t(nearest[i])];
+      const Vector_f p = column(places, i), e = p - t.position;
+      const float r = t.normal.dot(e);
+      if (std::abs(r) > step.reach || (e - r * t.normal).squaredNorm() > 4 * step.reach * step.reach) continue;
+      if (column(normals, i).dot(t.normal) < step.minimal_cosine) continue;
+      const float of_source = source[from + std::size_t(i)].variance,
+                  weight = step.variance > 0 ? step.variance / (step.variance + of_source + t.variance) : 1.f;
+      rows.push_back({p[0], p[1], p[2], t.normal[0], t.normal[1], t.normal[2], r, weight});
+      middle += p;
+    }
   }
   if (rows.size() < 6) return int(rows.size());
   middle /= float(rows.size());
