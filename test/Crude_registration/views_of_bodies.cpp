@@ -220,6 +220,43 @@ BOOST_AUTO_TEST_CASE(the_model_may_be_the_source)
   BOOST_TEST((back.rotation - view.part_from_view.rotation).norm() < 0.05);
 }
 
+// At sharp edges, too, whose surfels are off the surface: under the true motion no probe is off the body, and under one
+// of three that are off by a twenty-fifth of its size, along an axis each, at least one in fifty is.
+BOOST_AUTO_TEST_CASE(right_motions_leave_no_probe_off_the_body)
+{
+  const Kernel::Vector_3 directions[] = {{1, 2, -3}, {-3, -1, -2}, {2, -2, -1}};
+  for (const char* name : {"angle", "stairs", "pentagon", "wedge"}) {
+    const Mesh mesh = part(name);
+    const Scan model(mesh);
+    const CR::internal::Reduced_scan& body = model.reduced();
+    for (const auto& direction : directions) {
+      const View view = view_of(mesh, direction);
+      for (const bool is_mesh : {true, false}) {
+        const Scan scan = is_mesh ? Scan(view.mesh) : Scan(view.image.points());
+        const CR::internal::Reduced_scan& seen = scan.reduced();
+        const auto tolerance = CR::internal::probe_tolerance(seen.fine, body.fine, 0);
+        const auto probes = CR::internal::neighbouring_probes(seen.fine, 1500);
+        const Rigid_motion truth = body.own_from_input * view.part_from_view * seen.own_from_input.inverse();
+        const auto share_off = [&](const Rigid_motion& motion) {
+          return CR::internal::share_off_body(probes, body.fine, CR::internal::to_pose(motion), tolerance);
+        };
+        // Triangles reach over steps that a view shows, and what is there is off; of points there are none.
+        BOOST_TEST(share_off(truth) <= (is_mesh ? 0.01 : 0),
+                   name << ", " << direction << (is_mesh ? ", mesh: " : ", points: ")
+                        << share_off(truth) * double(probes.size()) << " probes");
+        // Along one axis at least: planes slide along themselves.
+        double most = 0;
+        for (int k = 0; k < 3; ++k) {
+          Rigid_motion off = truth;
+          off.translation += body.extent / 25 * Vector::Unit(k);
+          most = (std::max)(most, share_off(off));
+        }
+        BOOST_TEST(most > 0.02, name << ", " << direction << ": " << most);
+      }
+    }
+  }
+}
+
 // Nothing of another body is believed, nor of the mirror image.
 BOOST_AUTO_TEST_CASE(views_of_other_bodies)
 {

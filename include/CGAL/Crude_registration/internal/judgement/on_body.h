@@ -27,9 +27,17 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// Whether a place is on the surface of a body to within `distance`. A surfel stands for what is around it to within
-// half a diagonal of the spacing, and a little more; which one is the nearest, the field does not tell exactly: those
-// of the voxels around are looked at, too.
+// How far a surfel may lie from the surface, as that bends within it. Where two planes meet at right angles, the mean
+// of samples that fill a cell on either side is a quarter of the cell away from both, and the standard deviation that
+// variance_of_place() tells is 0.107 of the cell.
+inline float distance_by_bend(const Surfel& s)
+{
+  return 0.25f / 0.107f * std::sqrt(s.variance);
+}
+
+// Whether a place is on the surface of a body to within `distance`, and to within how far the body's surfels are off as
+// they bend. A surfel stands for what is around it to within half a diagonal of the spacing, and a little more; which
+// one is the nearest, the field does not tell exactly: those of the voxels around are looked at, too.
 inline bool is_on(const Surfel_level& body, const Vector_f& place, float distance)
 {
   constexpr float reach = 0.75f; // in spacings
@@ -39,8 +47,8 @@ inline bool is_on(const Surfel_level& body, const Vector_f& place, float distanc
     const Surfel& s = body.surfels[std::size_t(i)];
     const Vector_f d = place - s.position;
     const float height = s.normal.dot(d), aside = (d - height * s.normal).norm(),
-                beyond = (std::max)(aside - reach * body.spacing, 0.f);
-    return height * height + beyond * beyond <= distance * distance;
+                beyond = (std::max)(aside - reach * body.spacing, 0.f), most = distance + distance_by_bend(s);
+    return height * height + beyond * beyond <= most * most;
   };
   if (is_near(place)) return true;
   constexpr int here = 13; // of the 27 voxels
@@ -51,14 +59,15 @@ inline bool is_on(const Surfel_level& body, const Vector_f& place, float distanc
 }
 
 // The share of a view's probes that are not on the body under `pose`, body from view. The surfels of either may be off
-// by the tolerance. On which side the surface is does not matter: of points without a sensor, a part may be turned
-// over.
+// by the tolerance, and by how they bend. On which side the surface is does not matter: of points without a sensor, a
+// part may be turned over.
 template <class Probe_range>
 double share_off_body(const Probe_range& probes, const Surfel_level& body, const Pose& pose,
                       const Probe_tolerance& tolerance)
 {
   std::size_t off = 0;
-  for (const Surfel& s : probes) off += std::size_t(!is_on(body, pose(s.position), 2 * tolerance.distance));
+  for (const Surfel& s : probes)
+    off += std::size_t(!is_on(body, pose(s.position), 2 * tolerance.distance + distance_by_bend(s)));
   return probes.size() > 0 ? double(off) / double(probes.size()) : 0;
 }
 
