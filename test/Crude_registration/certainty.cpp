@@ -14,7 +14,10 @@
 
 #include <CGAL/Crude_registration/internal/base/symmetric_eigen.h>
 #include <CGAL/Crude_registration/internal/judgement/evidence_coefficients.h>
+#include <CGAL/Crude_registration/internal/mesh/to_flat_mesh.h>
 #include <CGAL/Crude_registration/internal/motion/twist.h>
+#include <CGAL/Crude_registration/internal/pipeline/register_reduced_scans.h>
+#include <CGAL/Crude_registration/internal/reduction/reduce_scan.h>
 #include <CGAL/Crude_registration/Judgement_limits.h>
 #include <CGAL/Crude_registration/judge_motion.h>
 
@@ -309,6 +312,51 @@ BOOST_AUTO_TEST_CASE(subdivision_is_no_evidence)
   BOOST_TEST(believed < pairs);
   BOOST_TEST(missed <= pairs / 20);
   BOOST_TEST(change / double(pairs) < CR::internal::Evidence_coefficients().calibration_error);
+}
+
+// What is said of two scans does not depend on how many fine surfels they are reduced to: of half and of twice as many
+// it changes, in the mean, by less than what is said is off.
+BOOST_AUTO_TEST_CASE(the_number_of_fine_surfels_is_no_evidence)
+{
+  using namespace CR::internal;
+  constexpr std::array<int, 6> directions = {0, 40, 75, 105, 150, 220};
+  constexpr std::array<double, 3> shares = {1, 0.5, 2};
+  std::array<std::vector<Reduced_scan>, shares.size()> scans;
+  for (std::size_t s = 0; s < shares.size(); ++s)
+    for (const int degrees : directions) {
+      // Of 70,000 samples, so that the number of surfels is what is asked for, and not a share of the samples.
+      const Image& image = view(3, degrees, 0.2, 1000).image;
+      Mesh mesh;
+      CR::triangulate_range_image(image, mesh);
+      Reduction_parameters parameters;
+      parameters.fine_surfels *= shares[s] / 2;
+      scans[s].push_back(reduce_scan(to_flat_mesh(mesh, p::default_values(), "", ""), Flat_sensor(), parameters));
+      const double surfels = double(scans[s].back().fine.surfels.size()),
+                   usual = double(scans[0][scans[s].size() - 1].fine.surfels.size());
+      BOOST_TEST(std::abs(surfels / usual / shares[s] - 1) < 0.1, surfels << " surfels, " << usual);
+    }
+  const auto candidates = [](const Reduced_scan& source, const Reduced_scan& target) {
+    return CR::Oriented_pair_candidates().candidates(source, target, Execution::SEQUENTIAL);
+  };
+  double change = 0;
+  std::size_t pairs = 0, believed = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    for (std::size_t j = i + 1; j < directions.size(); ++j) {
+      std::vector<Result> results;
+      for (const auto& of_share : scans)
+        results.push_back(to_result<Kernel>(
+            register_reduced_scans(of_share[i], of_share[j], candidates, Execution::SEQUENTIAL, to_the_end())));
+      const Result& usual = results.front();
+      believed += usual.status() == CR::REGISTERED;
+      for (std::size_t s = 1; s < shares.size(); ++s, ++pairs) {
+        BOOST_TEST((results[s].status() == CR::REGISTERED) == (usual.status() == CR::REGISTERED));
+        change += std::abs(results[s].confidence() - usual.confidence());
+        BOOST_TEST_MESSAGE("views " << i << " and " << j << ", " << shares[s]
+                                    << " of the surfels: " << results[s].confidence() << ", " << usual.confidence());
+      }
+    }
+  BOOST_TEST(believed >= 3u);
+  BOOST_TEST(change / double(pairs) < Evidence_coefficients().calibration_error);
 }
 
 namespace {
