@@ -49,10 +49,11 @@ inline Rows moved(const Pose& pose, const Rows& p)
 }
 
 // Exactly rounded, as Eigen's for arrays need not be: it differs from processor to processor.
-inline Row root(const Row& x)
+template <class Numbers>
+Numbers root(const Numbers& x)
 {
-  Row r;
-  for (int i = 0; i < row_size; ++i) r[i] = std::sqrt(x[i]);
+  Numbers r(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) r[i] = std::sqrt(x[i]);
   return r;
 }
 

@@ -89,11 +89,9 @@ inline Agreement agreement(const Reduced_scan& source, const Some_probes& source
     Index_row agrees = Index_row::Zero();
     for (int i = 0; i < in_row; ++i) {
       if (nearest[i] < 0) continue;
-      const Surfel& t = level.surfels[std::size_t(nearest[i])];
-      const Vector_f p = column(places, i), normal = column(normals, i);
       // What agrees is on the surface that was seen, though it may be before it along a grazing line of sight.
-      agrees[i] = int(std::abs(t.normal.dot(p - t.position)) <= look.distance) &
-                  int(normal.dot(t.normal) >= look.minimal_cosine);
+      agrees[i] = int(is_like(level.surfels[std::size_t(nearest[i])], column(places, i), column(normals, i),
+                              look.distance, look.minimal_cosine));
     }
     agreeing += std::size_t(agrees.sum());
     if (!target_is_known) continue;

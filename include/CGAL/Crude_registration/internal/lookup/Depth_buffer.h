@@ -15,6 +15,7 @@
 // What a sensor saw, as an image of depths: where in front of it there is nothing.
 
 #include <CGAL/Crude_registration/internal/base/Flat_sensor.h>
+#include <CGAL/Crude_registration/internal/base/Rows.h>
 #include <CGAL/Crude_registration/internal/base/Run_control.h>
 #include <CGAL/Crude_registration/internal/lookup/Surfel_field.h>
 
@@ -119,7 +120,7 @@ public:
     for (std::size_t i = 0; i < 3; ++i) q[i] -= m_viewpoint[Eigen::Index(i)];
     q = rotated(m_axes, q);
     if (m_kind == Flat_sensor::PERSPECTIVE) {
-      const Row r = root(q[0] * q[0] + (q[1] * q[1] + q[2] * q[2])), sum = r + q[2], f = root(2 / (r * sum));
+      const Row r = root(Row(q[0] * q[0] + (q[1] * q[1] + q[2] * q[2]))), sum = r + q[2], f = root(Row(2 / (r * sum)));
       constexpr float nowhere = (std::numeric_limits<float>::quiet_NaN)();
       q = {(sum > 1e-3f * r).select(q[0] * f, nowhere), (sum > 1e-3f * r).select(q[1] * f, nowhere), r};
     }

@@ -67,43 +67,25 @@ public:
     for_each_row(p, radius, [&](std::size_t from, std::size_t to) { for_each_of(p, 0, radius, from, to, f); });
   }
 
-  // The points within `radius` of p, in the order of for_each_within(): to `indices`.
-  void indices_within(const Vector& p, double radius, std::vector<std::int32_t>& indices) const
+  // The points within `radius` of p, in the order of for_each_within(): to `indices`, which are as many as is needed
+  // and more. Returns how many there are.
+  std::size_t indices_within(const Vector& p, double radius, std::vector<std::int32_t>& indices) const
   {
-    std::size_t n = 0;
-    const Vector place = p;
-    for_each_row(place, radius, [&](std::size_t from, std::size_t to) {
-      if (indices.size() < n + (to - from)) indices.resize(2 * (n + (to - from)));
-      std::int32_t* next = indices.data() + n;
-      const Entry* const entries = m_entries.items().data();
-      for (std::size_t e = from; e < to; ++e) {
-        *next = entries[e].index;
-        next += (entries[e].point - place).squaredNorm() <= radius * radius;
-      }
-      n = std::size_t(next - indices.data());
+    return collect_within(p, radius, indices, [&](const Entry& e, std::int32_t& index) {
+      index = e.index;
+      return (e.point - p).squaredNorm();
     });
-    indices.resize(n);
   }
 
-  // The differences to p of the points within `radius` of it, in the order of for_each_within(): to `differences`,
-  // which is as large as is needed and more. Returns how many there are.
+  // The same of their differences to p.
   std::size_t differences_within(const Vector& p, double radius, std::vector<Vector>& differences) const
   {
-    std::size_t n = 0;
     const Vector place = p;
-    for_each_row(place, radius, [&](std::size_t from, std::size_t to) {
-      if (differences.size() < n + (to - from)) differences.resize(2 * (n + (to - from)));
-      Vector* next = differences.data() + n;
-      const Entry* const entries = m_entries.items().data();
-      for (std::size_t e = from; e < to; ++e) {
-        const double x = entries[e].point[0] - place[0], y = entries[e].point[1] - place[1],
-                     z = entries[e].point[2] - place[2];
-        *next = Vector(x, y, z);
-        next += x * x + y * y + z * z <= radius * radius;
-      }
-      n = std::size_t(next - differences.data());
+    return collect_within(place, radius, differences, [place](const Entry& e, Vector& difference) {
+      const double x = e.point[0] - place[0], y = e.point[1] - place[1], z = e.point[2] - place[2];
+      difference = Vector(x, y, z);
+      return x * x + y * y + z * z;
     });
-    return n;
   }
 
   // f(index, other index, squared distance) for every pair of points that are between `least` and `radius` apart, once,
@@ -128,6 +110,22 @@ private:
     Vector point;
     std::int32_t index;
   };
+
+  // What `describe(entry, item)` makes of the entries for which it returns the square of at most `radius`, without a
+  // branch: to the beginning of `items`. Returns how many there are.
+  template <class Item, class Describe>
+  std::size_t collect_within(const Vector& p, double radius, std::vector<Item>& items, const Describe& describe) const
+  {
+    std::size_t n = 0;
+    for_each_row(p, radius, [&](std::size_t from, std::size_t to) {
+      if (items.size() < n + (to - from)) items.resize(2 * (n + (to - from)));
+      Item* next = items.data() + n;
+      const Entry* const entries = m_entries.items().data();
+      for (std::size_t e = from; e < to; ++e) next += describe(entries[e], *next) <= radius * radius;
+      n = std::size_t(next - items.data());
+    });
+    return n;
+  }
 
   // f(from, to) for the entries of each row of cells that `radius` around p meets.
   template <class Function>

@@ -44,6 +44,15 @@ struct Surfel
   float variance = 0; // of the place along the normal, as the surface bends within the surfel
 };
 
+// Whether a place is within `distance` of the plane of a surfel, and a normal is near that one's. Without a branch:
+// which of the two fails cannot be foretold.
+inline bool is_like(const Surfel& surfel, const Vector_f& place, const Vector_f& normal, float distance,
+                    float minimal_cosine)
+{
+  return (int(std::abs(surfel.normal.dot(place - surfel.position)) <= distance) &
+          int(normal.dot(surfel.normal) >= minimal_cosine)) != 0;
+}
+
 // The nearest surfel to any place near the surface, by one look-up: voxels in blocks of 4 x 4 x 4, of which only those
 // near the surface exist. Memory is linear in the number of surfels.
 class Surfel_field

@@ -48,20 +48,19 @@ inline bool choose_witnesses(const Surfel_level& source, const Point_grid& grid,
   const Surfel &a = source.surfels[std::size_t(first)], &b = source.surfels[std::size_t(second)];
   thread_local std::vector<std::int32_t> around;
   const Vector_f middle = 0.5f * (a.position + b.position);
-  grid.indices_within(middle.cast<double>(), double(reach), around);
+  const std::size_t all = grid.indices_within(middle.cast<double>(), double(reach), around);
   // Those that are not on the border, without a branch.
   std::size_t n = 0;
-  for (const std::int32_t j : around) {
-    around[n] = j;
-    n += source.borders[std::size_t(j)] == 0;
+  for (std::size_t i = 0; i < all; ++i) {
+    around[n] = around[i];
+    n += source.borders[std::size_t(around[i])] == 0;
   }
-  around.resize(n);
-  if (around.size() < 10) return false;
+  if (n < 10) return false;
   const std::uint64_t seed = std::uint64_t(first) << 32 | std::uint64_t(second) << 8;
   const Matrix_f to_pair = pair_frame(a, b).transpose();
   witnesses.clear();
   for (int w = 0; w < number; ++w) {
-    const std::size_t r = Counter_random::mixed(seed + std::uint64_t(w)) % around.size();
+    const std::size_t r = Counter_random::mixed(seed + std::uint64_t(w)) % n;
     const Surfel& s = source.surfels[std::size_t(around[r])];
     witnesses.push_back({to_pair * (s.position - middle), to_pair * s.normal});
   }
@@ -91,10 +90,8 @@ inline bool has_counterpart(const Witness& w, const Pose& there, const Surfel_le
 {
   const Vector_f p = there(w.position);
   const int j = target.field.nearest(p);
-  if (j < 0) return false;
-  const Surfel& t = target.surfels[std::size_t(j)];
-  return std::abs(t.normal.dot(p - t.position)) <= tolerance.distance &&
-         (there.rotation * w.normal).dot(t.normal) >= tolerance.minimal_cosine;
+  return j >= 0 && is_like(target.surfels[std::size_t(j)], p, there.rotation * w.normal, tolerance.distance,
+                           tolerance.minimal_cosine);
 }
 
 // Witnesses of one pair, a row of them at a time.
@@ -130,9 +127,8 @@ public:
       const Index_row nearest = target.field.nearest(places);
       for (int i = 0; i < in_row; ++i) {
         if (nearest[i] < 0) continue;
-        const Surfel& t = target.surfels[std::size_t(nearest[i])];
-        found += int(std::abs(t.normal.dot(column(places, i) - t.position)) <= tolerance.distance) &
-                 int(column(normals, i).dot(t.normal) >= tolerance.minimal_cosine);
+        found += int(is_like(target.surfels[std::size_t(nearest[i])], column(places, i), column(normals, i),
+                             tolerance.distance, tolerance.minimal_cosine));
       }
     }
     return found >= needed;
@@ -199,11 +195,10 @@ public:
           continue;
         }
         const int j = nearest[Eigen::Index(i - from)];
-        const Surfel& t = m_target.surfels[std::size_t((std::max)(j, 0))];
         const Vector_f p(m_position[0][row], m_position[1][row], m_position[2][row]),
             normal(m_normal[0][row], m_normal[1][row], m_normal[2][row]);
-        const int is_found = int(j >= 0) & int(std::abs(t.normal.dot(p - t.position)) <= m_tolerance.distance) &
-                             int(normal.dot(t.normal) >= m_tolerance.minimal_cosine);
+        const int is_found = int(j >= 0) & int(is_like(m_target.surfels[std::size_t((std::max)(j, 0))], p, normal,
+                                                       m_tolerance.distance, m_tolerance.minimal_cosine));
         if (is_found == 0) continue;
         Found_pair& f = found[number++];
         f.pair = pairs[i];
@@ -222,11 +217,6 @@ private:
   using Pair_row = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, int(most), 1>;
   using Pair_rows = std::array<Pair_row, 3>;
 
-  // Exactly rounded, as Eigen's for arrays need not be: it differs from processor to processor.
-  static Pair_row root(const Pair_row& x)
-  {
-    return x.unaryExpr([](float value) { return std::sqrt(value); });
-  }
   static Pair_row dot(const Pair_rows& a, const Pair_rows& b) { return a[0] * b[0] + (a[1] * b[1] + a[2] * b[2]); }
 
   // The witness's place and normal in the frames of the pairs, pair_frame().
