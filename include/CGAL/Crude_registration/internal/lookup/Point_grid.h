@@ -80,9 +80,9 @@ public:
   // The same of their differences to p.
   std::size_t differences_within(const Vector& p, double radius, std::vector<Vector>& differences) const
   {
-    const Vector place = p;
-    return collect_within(place, radius, differences, [place](const Entry& e, Vector& difference) {
-      const double x = e.point[0] - place[0], y = e.point[1] - place[1], z = e.point[2] - place[2];
+    const double u = p[0], v = p[1], w = p[2]; // that no difference is written to
+    return collect_within(p, radius, differences, [u, v, w](const Entry& e, Vector& difference) {
+      const double x = e.point[0] - u, y = e.point[1] - v, z = e.point[2] - w;
       difference = Vector(x, y, z);
       return x * x + y * y + z * z;
     });
