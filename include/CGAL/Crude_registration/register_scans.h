@@ -113,8 +113,8 @@ Candidate_factory candidate_factory(const Generator& generator, const Scan<Kerne
 }
 
 // Where nothing tells from which side a scan was seen, both are tried, until a motion is certain. The most probable one
-// counts; what other sides bring are its rivals. `run`: of a source and a target, a Registration_outcome or what
-// derives from it.
+// counts, by how often the sides of two scans are found that go together; what other sides bring are its rivals. `run`:
+// of a source and a target, a Registration_outcome or what derives from it.
 template <class Kernel, class Run>
 auto best_of_sides(const Scan<Kernel>& source, const Scan<Kernel>& target, Run_control& control, const Run& run)
 {
@@ -130,6 +130,8 @@ auto best_of_sides(const Scan<Kernel>& source, const Scan<Kernel>& target, Run_c
   for (std::size_t i = 0; i < sides.size(); ++i) {
     control.set_part(i, sides.size());
     outcomes.push_back(run(*sides[i].first, *sides[i].second));
+    const bool is_of_source = sides[i].first == other_source, is_of_target = sides[i].second == other_target;
+    if (other_source && other_target && is_of_source != is_of_target) turn_over_one_of_two(outcomes.back());
     if (is_better(outcomes.back(), outcomes.front())) std::swap(outcomes.back(), outcomes.front());
     if (control.is_stopped() || is_certain(outcomes.front())) break;
   }

@@ -148,6 +148,36 @@ inline void turn_towards(const Flat_sensor& sensor, double grazing, Samples_with
   }
 }
 
+// Turns the samples that are not sure to the side that their neighbours tell, from those that are; `untold(i)` is
+// called of each of which none does. `cell`: about the least of the reaches.
+template <class Function>
+void turn_as_neighbours(const std::vector<std::uint8_t>& is_sure, double cell, Run_control& control,
+                        Samples_without_side& samples, const Function& untold)
+{
+  Sides_of_points sides(samples.points, samples.normals, samples.reaches, cell, is_sure, control);
+  for (std::size_t i = 0; i < samples.points.size(); ++i) {
+    if (is_sure[i]) continue;
+    const auto [root, is_opposite] = sides.side(i);
+    if (!is_sure[root]) untold(i);
+    else if (is_opposite) samples.normals[i] = -samples.normals[i];
+  }
+}
+
+// Turns the samples towards a place that is about that of the sensor: what is seen squarely from there has the right
+// side, and what is not, which a place beside it would see from behind, has that of its neighbours.
+inline void turn_towards_about(const Vector& place, double cell, Run_control& control, Samples_without_side& samples)
+{
+  constexpr double squarely = 0.5; // the cosine; decided: 30 degrees and more above the surface
+  std::vector<std::uint8_t> is_sure(samples.points.size());
+  for (std::size_t i = 0; i < samples.points.size(); ++i) {
+    Vector& normal = samples.normals[i];
+    const double cosine = unit_or_zero(place - samples.points[i]).dot(normal);
+    if (cosine < 0) normal = -normal;
+    is_sure[i] = std::uint8_t(std::abs(cosine) >= squarely);
+  }
+  turn_as_neighbours(is_sure, cell, control, samples, [](std::size_t) {});
+}
+
 // Turns the samples to the side of normals that are given with the points; false where they do not say one for most.
 // Those of which none is given have the side that their neighbours tell, or, where none of these is told, are left out
 // by a null normal.
@@ -167,13 +197,7 @@ inline bool turn_as_given(const Evened_points& evened, const std::vector<Vector>
   const auto number_given = std::size_t(std::count(is_given.begin(), is_given.end(), std::uint8_t(1)));
   if (2 * number_given <= n) return false;
   if (number_given == n) return true;
-  Sides_of_points sides(samples.points, samples.normals, samples.reaches, cell, is_given, control);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (is_given[i]) continue;
-    const auto [root, is_opposite] = sides.side(i);
-    if (!is_given[root]) samples.normals[i] = Vector::Zero();
-    else if (is_opposite) samples.normals[i] = -samples.normals[i];
-  }
+  turn_as_neighbours(is_given, cell, control, samples, [&](std::size_t i) { samples.normals[i] = Vector::Zero(); });
   return true;
 }
 
@@ -207,7 +231,7 @@ CGAL_CRUDE_REGISTRATION_INLINE Oriented_points orient_points(const std::vector<V
   } else if (normals.empty() || !turn_as_given(evened, normals, fits.radius(0), control, samples)) {
     const Lines_of_sight lines = lines_of_sight(evened, samples);
     if (const std::optional<Vector> place = Sensor_place(lines, control).find()) {
-      turn_towards({Flat_sensor::PERSPECTIVE, *place}, 0, samples);
+      turn_towards_about(*place, fits.radius(0), control, samples);
       result.is_side_known = false;
     } else {
       result.is_side_known = turn_outwards(samples, control, lines, fits.radius(0));

@@ -34,8 +34,8 @@ namespace CGAL {
 namespace Crude_registration {
 namespace internal {
 
-// Looks for the place from where a surface was seen, a room by a camera that moved in it, say, or a body by a scanner
-// in front of it: most of the surface is visible from there. Places are tried all around and within.
+// Looks for the place from where a surface was seen, a body by a scanner in front of it, say, or a room by a camera
+// that moved in it: most of the surface is visible from there. Places are tried all around and within.
 class Sensor_place
 {
 public:
@@ -47,35 +47,52 @@ public:
   {
     if (!m_lines.has_grid() || m_samples.empty()) return std::nullopt;
     measure();
-    std::vector<Place> places = all_places();
-    // The fewer places are left, the more samples are asked: about as many lines in each round.
-    constexpr double all = 0.95, most = 0.7, half_of_the_sphere = 0.5;
-    keep_best(places, 0, 25, 200);
-    keep_best(places, 25, 75, 60);
-    keep_best(places, 100, 250, 20);
-    keep_best(places, 350, 1000, 1, all);
-    // A body seen from one side is as visible from behind: the surface bulges towards the sensor, if anywhere.
-    const Place& best = places.front();
-    const std::vector<Tie> ties = all_ties();
-    std::optional<Vector> found;
-    double most_agrees = 0;
-    for (const Place& p : places) {
-      if (!(p.visible >= all && bulge(p.position) > 0)) continue;
-      const double agrees = p.visible - share_torn(ties, p.position);
-      if (found && !(agrees > most_agrees)) continue;
-      found = p.position;
-      most_agrees = agrees;
-    }
-    if (found) return found;
-    if (best.visible < most || coverage(best.position) > half_of_the_sphere) return std::nullopt;
-    return best.position;
+    // What is seen from one side is as visible from behind, and most of all from where it bends around the place: a
+    // body from within. So the surface bulges towards the sensor, if a place where it does is as good. What was a room
+    // is turned over by that, and so is each other scan of it: they fit each other as before.
+    std::vector<Place> outside, inside;
+    for (const Place& p : all_places()) (bulge(p.position) > 0 ? outside : inside).push_back(p);
+    constexpr double most = 0.7, half_of_the_sphere = 0.5;
+    const Place outer = best_of(std::move(outside));
+    if (outer.visible >= most) return outer.position;
+    const Place inner = best_of(std::move(inside));
+    if (inner.visible < most || coverage(inner.position) > half_of_the_sphere) return std::nullopt;
+    return inner.position;
   }
 
 private:
   struct Place
   {
-    Vector position;
-    double visible; // share of the samples
+    Vector position = Vector::Zero();
+    double visible = 0; // share of the samples
+  };
+
+  // The place from where most is visible, less what is torn; one from where nothing is, if there is none.
+  Place best_of(std::vector<Place> places) const
+  {
+    // The fewer places are left, the more samples are asked: about as many lines in each round.
+    constexpr double all = 0.95;
+    keep_best(places, 0, 25, 200);
+    keep_best(places, 25, 75, 60);
+    keep_best(places, 100, 250, 20);
+    keep_best(places, 350, 1000, 1, all);
+    const std::vector<Tie> ties = all_ties();
+    Place best;
+    double most_agrees = 0;
+    for (const Place& p : places) {
+      const double agrees = p.visible - share_torn(ties, p.position);
+      if (!(agrees > most_agrees)) continue;
+      best = p;
+      most_agrees = agrees;
+    }
+    return best;
+  }
+
+  // Of a sample, along its normal.
+  struct Height
+  {
+    Vector normal;
+    double of_sample, over_centroid;
   };
 
   // What two samples side by side say of each other's side: see Sides_of_points.
@@ -122,6 +139,11 @@ private:
       sum += m_lines.point(i);
     }
     m_centroid = sum / double(m_lines.size());
+    m_heights.reserve(m_lines.size());
+    for (std::size_t i = 0; i < m_lines.size(); ++i) {
+      const Vector &p = m_lines.point(i), &n = m_lines.normal(i);
+      m_heights.push_back({n, n.dot(p), n.dot(p - m_centroid)});
+    }
   }
 
   // Up to one and a half extents from the centre along each axis, denser near it.
@@ -181,10 +203,7 @@ private:
   double bulge(const Vector& place) const
   {
     double sum = 0;
-    for (std::size_t i = 0; i < m_lines.size(); ++i) {
-      const Vector &p = m_lines.point(i), &n = m_lines.normal(i);
-      sum += (n.dot(place - p) < 0 ? -1 : 1) * n.dot(p - m_centroid);
-    }
+    for (const Height& h : m_heights) sum += h.normal.dot(place) < h.of_sample ? -h.over_centroid : h.over_centroid;
     return sum;
   }
 
@@ -205,6 +224,7 @@ private:
   const Lines_of_sight& m_lines;
   Run_control& m_control;
   const std::vector<std::int32_t> m_samples; // in an order without pattern
+  std::vector<Height> m_heights;
   Vector m_low, m_high, m_centroid;
 };
 
