@@ -49,9 +49,6 @@ struct Oriented_pair_parameters
   std::vector<Oriented_pair_round> rounds = {{{8. / 15}, 300, 5, 80000, 0, 14, 32, 8},
                                              {{8. / 15, 1. / 3}, 800, 5, 200000, 0, 14, 60, 8},
                                              {{5. / 6, 8. / 15, 1. / 3, 0.2}, 2000, 4, 1800000, 1. / 3, 20, 300, 16}};
-  // Times as many are proposed and judged where neither sensor is known: what lies in free space tells most of the
-  // wrong ones otherwise. By the table in doc/design.md, of 316 generated pairs.
-  std::size_t without_sensors = 3;
   float source_half_width = 0.3f; // of the lengths, in spacings
   float target_half_width = 0.7f;
   float distance = 0.8f; // of a witness to the plane of its counterpart, in spacings

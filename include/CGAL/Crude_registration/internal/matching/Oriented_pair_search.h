@@ -78,11 +78,7 @@ public:
   {
     if (m_origins.empty() || m_next_round == m_parameters.rounds.size()) return std::nullopt;
     Proposals proposals;
-    Oriented_pair_round round = m_parameters.rounds[m_next_round++];
-    if (!m_source.depths.is_known() && !m_target.depths.is_known()) {
-      round.kept *= m_parameters.without_sensors;
-      round.judged *= m_parameters.without_sensors;
-    }
+    const Oriented_pair_round& round = m_parameters.rounds[m_next_round++];
     ++m_rounds.count;
     const Stage_timer timer(m_rounds);
     std::vector<Candidate> candidates = match(choose_pairs(round), round, control);

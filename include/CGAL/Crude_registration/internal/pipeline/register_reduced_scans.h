@@ -74,25 +74,21 @@ inline bool is_certain(const Registration_outcome& outcome)
   return outcome.verdict.status == REGISTERED && is_certain(outcome.poses);
 }
 
-// A probability, where the odds are that many times what it stands for.
-inline double at_odds(double times, double probability)
-{
-  return times * probability / (1 - probability + times * probability);
-}
-
 // Of two scans whose sides nothing tells, one is turned over and the other one is not: as orient_points() turns both to
 // where they bulge, this is needed the less often the more often their sides go together. By the mean of the kinds of
-// scenes of calibration/sides_of_views.
+// scenes of calibration/sides_of_views. The share of answers that obey no law is as it is.
 inline void turn_over_one_of_two(Registration_outcome& outcome)
 {
-  constexpr double go_together = 0.932, times = (1 - go_together) / go_together;
+  constexpr double go_together = 0.95, times = (1 - go_together) / go_together; // of the odds
+  const auto less_probable = [&](double p) { return times * p / (1 - p + times * p); };
   for (Judged_pose& p : outcome.poses) {
+    const double by_law = less_probable(p.by_law), share = p.by_law > 0 ? by_law / p.by_law : times;
+    if (&p == outcome.poses.data()) outcome.verdict.confidence *= share;
     p.log_odds += std::log(times);
-    p.probability = at_odds(times, p.probability);
-    p.by_law = at_odds(times, p.by_law);
+    p.probability *= share;
+    p.by_law = by_law;
   }
   Verdict& verdict = outcome.verdict;
-  verdict.confidence = at_odds(times, verdict.confidence);
   if (verdict.status != REGISTERED || verdict.confidence >= believed) return;
   verdict.status = AMBIGUOUS;
   verdict.reason = "the best motion may be by chance";

@@ -48,14 +48,16 @@ public:
     if (!m_lines.has_grid() || m_samples.empty()) return std::nullopt;
     measure();
     // What is seen from one side is as visible from behind, and most of all from where it bends around the place: a
-    // body from within. So the surface bulges towards the sensor, if a place where it does is as good. What was a room
-    // is turned over by that, and so is each other scan of it: they fit each other as before.
+    // body from within. So the surface bulges towards the sensor, where it does at all and hardly less is visible from
+    // there. What was a room may be turned over by that, and so is each other scan of it: they fit each other as
+    // before.
     std::vector<Place> outside, inside;
     for (const Place& p : all_places()) (bulge(p.position) > 0 ? outside : inside).push_back(p);
-    constexpr double most = 0.7, half_of_the_sphere = 0.5;
-    const Place outer = best_of(std::move(outside));
-    if (outer.visible >= most) return outer.position;
-    const Place inner = best_of(std::move(inside));
+    constexpr double most = 0.7, half_of_the_sphere = 0.5, at_all = 0.1, hardly_less = 0.8;
+    const Place outer = best_of(std::move(outside)), inner = best_of(std::move(inside));
+    const bool bulges = bulge(outer.position) >= at_all * -bulge(inner.position),
+               is_as_visible = outer.agrees >= hardly_less * inner.agrees;
+    if (outer.visible >= most && (inner.visible < most || (bulges && is_as_visible))) return outer.position;
     if (inner.visible < most || coverage(inner.position) > half_of_the_sphere) return std::nullopt;
     return inner.position;
   }
@@ -65,6 +67,7 @@ private:
   {
     Vector position = Vector::Zero();
     double visible = 0; // share of the samples
+    double agrees = 0;  // less what is torn: see share_torn()
   };
 
   // The place from where most is visible, less what is torn; one from where nothing is, if there is none.
@@ -75,15 +78,12 @@ private:
     keep_best(places, 0, 25, 200);
     keep_best(places, 25, 75, 60);
     keep_best(places, 100, 250, 20);
-    keep_best(places, 350, 1000, 1, all);
+    keep_best(places, 350, 1000, 20, all);
     const std::vector<Tie> ties = all_ties();
     Place best;
-    double most_agrees = 0;
-    for (const Place& p : places) {
-      const double agrees = p.visible - share_torn(ties, p.position);
-      if (!(agrees > most_agrees)) continue;
-      best = p;
-      most_agrees = agrees;
+    for (Place& p : places) {
+      p.agrees = p.visible - share_torn(ties, p.position);
+      if (p.agrees > best.agrees) best = p;
     }
     return best;
   }
@@ -155,7 +155,7 @@ private:
     std::vector<Place> places;
     for (const double x : steps)
       for (const double y : steps)
-        for (const double z : steps) places.push_back({centre + extent * Vector(x, y, z), 0});
+        for (const double z : steps) places.push_back({centre + extent * Vector(x, y, z)});
     return places;
   }
 
