@@ -53,8 +53,9 @@ public:
     // before.
     std::vector<Place> outside, inside;
     for (const Place& p : all_places()) (bulge(p.position) > 0 ? outside : inside).push_back(p);
-    constexpr double most = 0.7, half_of_the_sphere = 0.5, at_all = 0.1, hardly_less = 0.8;
-    const Place outer = best_of(std::move(outside)), inner = best_of(std::move(inside));
+    constexpr double most = 0.7, half_of_the_sphere = 0.5, at_all = 0.1, hardly_less = 0.8; // decided: doc/design.md
+    const std::vector<Tie> ties = all_ties();
+    const Place outer = best_of(std::move(outside), ties), inner = best_of(std::move(inside), ties);
     const bool bulges = bulge(outer.position) >= at_all * -bulge(inner.position),
                is_as_visible = outer.agrees >= hardly_less * inner.agrees;
     if (outer.visible >= most && (inner.visible < most || (bulges && is_as_visible))) return outer.position;
@@ -70,8 +71,15 @@ private:
     double agrees = 0;  // less what is torn: see share_torn()
   };
 
+  // What two samples side by side say of each other's side: see Sides_of_points.
+  struct Tie
+  {
+    std::uint32_t a, b;
+    double weight; // negative where their normals look to opposite sides
+  };
+
   // The place from where most is visible, less what is torn; one from where nothing is, if there is none.
-  Place best_of(std::vector<Place> places) const
+  Place best_of(std::vector<Place> places, const std::vector<Tie>& ties) const
   {
     // The fewer places are left, the more samples are asked: about as many lines in each round.
     constexpr double all = 0.95;
@@ -79,7 +87,6 @@ private:
     keep_best(places, 25, 75, 60);
     keep_best(places, 100, 250, 20);
     keep_best(places, 350, 1000, 20, all);
-    const std::vector<Tie> ties = all_ties();
     Place best;
     for (Place& p : places) {
       p.agrees = p.visible - share_torn(ties, p.position);
@@ -93,13 +100,6 @@ private:
   {
     Vector normal;
     double of_sample, over_centroid;
-  };
-
-  // What two samples side by side say of each other's side: see Sides_of_points.
-  struct Tie
-  {
-    std::uint32_t a, b;
-    double weight; // negative where their normals look to opposite sides
   };
 
   std::vector<Tie> all_ties() const
