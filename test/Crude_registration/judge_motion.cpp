@@ -154,3 +154,28 @@ BOOST_AUTO_TEST_CASE(statuses_are_written_as_words)
   out << CR::RIGHT_MOTION << ' ' << CR::REFINABLE_MOTION << ' ' << CR::WRONG_MOTION;
   BOOST_TEST(out.str() == "right refinable wrong");
 }
+
+// Where one of two scans without a sensor has to be turned over, odds are a nineteenth of what they were: by the law,
+// 19 to 1 become even. What obeys no law stays as it is.
+BOOST_AUTO_TEST_CASE(turning_over_one_of_two_scans_costs_odds)
+{
+  using namespace CGAL::Crude_registration::internal;
+  const auto turned = [](double by_law, double probability) {
+    Registration_outcome outcome;
+    outcome.poses.resize(1);
+    outcome.poses.front().log_odds = std::log(by_law / (1 - by_law));
+    outcome.poses.front().by_law = by_law;
+    outcome.poses.front().probability = outcome.verdict.confidence = probability;
+    outcome.verdict.status = CR::REGISTERED;
+    turn_over_one_of_two(outcome);
+    return outcome;
+  };
+  const Registration_outcome doubtful = turned(0.95, 0.94), sure = turned(1 - 1e-9, 0.993);
+  BOOST_TEST(doubtful.poses.front().by_law == 0.5, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(doubtful.verdict.confidence == 0.94 * 0.5 / 0.95, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(std::abs(doubtful.poses.front().log_odds) < 1e-12);
+  BOOST_TEST((doubtful.verdict.status == CR::AMBIGUOUS));
+  BOOST_TEST(!doubtful.verdict.reason.empty());
+  BOOST_TEST(sure.verdict.confidence == 0.993, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST((sure.verdict.status == CR::REGISTERED));
+}

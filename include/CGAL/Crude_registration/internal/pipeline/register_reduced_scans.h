@@ -79,15 +79,16 @@ inline bool is_certain(const Registration_outcome& outcome)
 // scenes of calibration/sides_of_views. The share of answers that obey no law is as it is.
 inline void turn_over_one_of_two(Registration_outcome& outcome)
 {
+  if (outcome.poses.empty()) return;
   constexpr double go_together = 0.95, times = (1 - go_together) / go_together; // of the odds
-  const auto less_probable = [&](double p) { return times * p / (1 - p + times * p); };
+  const double before = outcome.poses.front().probability;
   for (Judged_pose& p : outcome.poses) {
-    const double by_law = less_probable(p.by_law), share = p.by_law > 0 ? by_law / p.by_law : times;
-    if (&p == outcome.poses.data()) outcome.verdict.confidence *= share;
+    const double by_law = times * p.by_law / (1 - p.by_law + times * p.by_law);
     p.log_odds += std::log(times);
-    p.probability *= share;
+    p.probability *= p.by_law > 0 ? by_law / p.by_law : times;
     p.by_law = by_law;
   }
+  if (before > 0) outcome.verdict.confidence *= outcome.poses.front().probability / before;
   Verdict& verdict = outcome.verdict;
   if (verdict.status != REGISTERED || verdict.confidence >= believed) return;
   verdict.status = AMBIGUOUS;
